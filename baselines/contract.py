@@ -1,0 +1,73 @@
+"""What a method is: it prepares a query (build, timed apart) and answers it (timed)."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from math import nan
+from typing import Any, Callable, ClassVar, Mapping
+
+from ofg import Query
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """hit: the method says that the bodies meet. time: its time of impact in [0, 1], NaN where it gives none."""
+
+    hit: bool
+    time: float = nan
+
+
+class Unsupported(Exception):
+    """Raised by `prepare` with the reason why this method cannot be asked this query. Never counted as a miss."""
+
+
+class MissingEngine(ImportError):
+    """The engine's package is not installed; the message says how to install it."""
+
+
+class Method(ABC):
+    """One engine in one configuration. Subclass it in a file of `baselines/`; class attributes declare what it is.
+
+    A subclass is made once per worker process and asked many queries; it may cache what it builds per body
+    (`Body.digest`). Everything that a user would do once per body pair belongs in `prepare`; what he would do for each new
+    pose belongs in the callable that `prepare` returns, and is timed.
+    """
+
+    name: ClassVar[str]  #: unique, lower case, as in the tables: "fcl-convex"
+    engine: ClassVar[str]  #: distribution whose version the manifest records: "python-fcl"
+    imports: ClassVar[str]  #: module that must import: "fcl"
+    configuration: ClassVar[str]  #: "default" (what the documentation shows a newcomer), "best effort", or "as written"
+    questions: ClassVar[frozenset[str]]  #: subset of ofg.QUESTIONS
+    bodies: ClassVar[frozenset[str]]  #: subset of {"convex", "union", "mesh"}
+    solid: ClassVar[bool]  #: False: tests surfaces, so a contained body is not seen
+    gives_time: ClassVar[bool] = False  #: returns a time of impact for sweeps
+    margin: ClassVar[float] = 0.0  #: documented distance (length) below which a clear pair may be called a hit
+    guarantee: ClassVar[str]  #: one line: what an answer is worth by its documentation
+    parameters: ClassVar[Mapping[str, Any]] = {}  #: name -> default; the first is the one its accuracy-speed curve runs over
+
+    def __init__(self, **parameters):
+        unknown = sorted(set(parameters) - set(self.parameters))
+        if unknown:
+            known = ", ".join(self.parameters) or "none"
+            raise ValueError(f"Method '{self.name}' has no parameter {', '.join(unknown)}; it has: {known}.")
+        self.parameters = {**self.parameters, **parameters}
+
+    @property
+    def label(self) -> str:
+        """The name with the parameters: 'ofg k=8'. Unique within a run."""
+        return " ".join([self.name, *(f"{k}={v}" for k, v in self.parameters.items())])
+
+    def refuse(self, query: Query) -> None:
+        """Raise Unsupported where the declaration rules the query out."""
+        if query.question not in self.questions:
+            raise Unsupported(f"does not answer {query.question}")
+        for body in (query.a, query.b):
+            if body.kind not in self.bodies:
+                raise Unsupported(f"takes no {body.kind} body")
+
+    @abstractmethod
+    def prepare(self, query: Query) -> Callable[[], Verdict]:
+        """Build for `query` and return the callable that answers it. Raises Unsupported with a reason."""
+
+
