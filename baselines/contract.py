@@ -55,8 +55,10 @@ class Method(ABC):
 
     @property
     def label(self) -> str:
-        """The name with the parameters: 'ofg k=8'. Unique within a run."""
-        return " ".join([self.name, *(f"{k}={v}" for k, v in self.parameters.items())])
+        """The name, the first parameter, and the others that differ from their defaults: 'ofg k=8'. `registry.make` reads it back."""
+        defaults = type(self).parameters
+        shown = {k: v for i, (k, v) in enumerate(self.parameters.items()) if i == 0 or v != defaults[k]}
+        return " ".join([self.name, *(f"{k}={v}" for k, v in shown.items())])
 
     def refuse(self, query: Query) -> None:
         """Raise Unsupported where the declaration rules the query out."""

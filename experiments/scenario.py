@@ -11,6 +11,7 @@ import numpy as np
 from ofg import Body, Motion, Pose, Query
 
 from .case import Case
+from .truth.label import Truth
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,8 @@ class Scenario:
     name: as in the tables. question: what its cases ask. exposes: one line, what it tells methods apart by.
     axis: what the difficulty is, with its unit. levels: the values it takes, easy to hard.
     generate(rng, level) -> Draft: aims at the difficulty; the label comes from the certificate and never from the aim.
-    redraw_if: a truth that makes a case useless, such as "start-overlap": it is drawn again (at most 50 times, counted).
+    redraw_if: what makes a case useless, so that it is drawn again (at most 50 times, and counted): any of "start-overlap"
+    (a sweep that begins inside), "hit", "clear", "uncertain".
     """
 
     name: str
@@ -45,12 +47,18 @@ class Scenario:
 
     def case(self, seed: int, level: float, index: int, attempt: int = 0) -> Case:
         """The same case for the same arguments, whatever was made before it. Inputs are snapped to float32."""
-        if level not in self.levels:
-            raise ValueError(f"Scenario '{self.name}' has no level {level}; its {self.axis} takes {list(self.levels)}.")
+        self.check_level(level)
         key = [seed, zlib.crc32(self.name.encode()), list(self.levels).index(level), index, attempt]
         d = self.generate(np.random.default_rng(key), level)
         query = Query(self.question, d.a, d.b, snap_pose(d.pose_a), snap_pose(d.pose_b), snap_motion(d.motion))
         return Case(f"{self.name}/{level:g}/{index:04d}", self.name, float(level), index, query, dict(d.tags or {}))
+
+    def check_level(self, level: float) -> None:
+        if level not in self.levels:
+            raise ValueError(f"Scenario '{self.name}' has no level {level:g}. Its axis is {self.axis}; it takes {', '.join(f'{v:g}' for v in self.levels)}.")
+
+    def useless(self, truth: Truth) -> bool:
+        return truth.label in self.redraw_if or ("start-overlap" in self.redraw_if and truth.start == "hit")
 
 
 def snap(values) -> np.ndarray:

@@ -1,0 +1,81 @@
+"""From certified cases to observations: every method is asked every case, in processes that may die."""
+
+from __future__ import annotations
+
+import math
+
+import pandas as pd
+
+from baselines import registry
+from baselines.contract import MissingEngine, Unsupported
+
+from .case import Case
+from .config import RunConfig
+from .pool import Task, run
+from .progress import stage
+from .rows import cases_of
+from .store import Store
+
+CHUNK = 256  # cases asked in one process: bounds what a leaking engine can hold
+COLUMNS = ["case", "method", "status", "hit", "time", "detail"]
+
+
+def ask(store: Store, config: RunConfig, workers: int) -> None:
+    """Write observations.parquet, a row per case and method; parts that are there already are not made again."""
+    if store.has("observations.parquet"):
+        return
+    cases = [case for case, _ in cases_of(store.read("cases.parquet"), store.read("bodies.parquet"))]
+    methods = [m for spec in config.methods for m in registry.make(spec)]
+    chunks = [cases[i:i + CHUNK] for i in range(0, len(cases), CHUNK)]
+    tasks, names = [], []
+    for m, method in enumerate(methods):
+        for i, chunk in enumerate(chunks):
+            names.append(("parts", "observations", f"{m:03d}-{i:05d}.parquet"))
+            if not store.has(*names[-1]):
+                tasks.append(_task(store, method, chunk, names[-1]))
+    with stage("ask methods", len(cases) * len(methods)) as advance:
+        advance(len(cases) * len(methods) - sum(len(t.items) for t in tasks))
+        run(tasks, workers, config.query_seconds, store.path("workers.log"), advance)
+    store.write(pd.concat([store.read(*name) for name in names], ignore_index=True), "observations.parquet")
+
+
+def _task(store: Store, method, chunk: list[Case], name) -> Task:
+    def done(rows):
+        frame = pd.DataFrame(rows, columns=COLUMNS).astype({"hit": "boolean"})
+        store.write(frame, *name)
+
+    def lost(case, status, detail):
+        return _row(case, method.label, status, detail=detail)
+
+    return Task(_open, method.label, chunk, done, lost)
+
+
+def _open(spec: str):
+    try:
+        (method,) = registry.make(spec)
+        reason = registry.available(type(method))
+    except MissingEngine as error:
+        reason = str(error)
+    if reason:
+        return lambda case: _row(case, spec, "unsupported", detail=reason)
+    return lambda case: answer(method, case)
+
+
+def answer(method, case: Case) -> dict:
+    """The observation row of one method at one case. An exception of the engine is its answer: status `error`."""
+    try:
+        verdict = method.prepare(case.query)()
+    except Unsupported as refusal:
+        return _row(case, method.label, "unsupported", detail=str(refusal))
+    except MissingEngine as missing:
+        return _row(case, method.label, "unsupported", detail=str(missing))
+    except Exception as error:
+        return _row(case, method.label, "error", detail=f"{type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}"[:200])
+    time = float(verdict.time)
+    if not math.isnan(time) and not 0 <= time <= 1:
+        return _row(case, method.label, "error", detail=f"time of impact {time!r} is outside the step [0, 1]")
+    return _row(case, method.label, "ok", bool(verdict.hit), time if verdict.hit else math.nan)
+
+
+def _row(case: Case, method: str, status: str, hit=None, time=math.nan, detail="") -> dict:
+    return {"case": case.id, "method": method, "status": status, "hit": hit, "time": time, "detail": detail}

@@ -1,0 +1,91 @@
+"""From scenarios to certified cases."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from . import scenarios
+from .case import Case
+from .config import RunConfig
+from .pool import Task, run
+from .progress import stage
+from .rows import body_row, case_row
+from .store import Store
+from .truth.label import Truth
+
+REDRAWS = 50
+CHUNK = 64  # cases labelled by one process
+
+
+@dataclass(frozen=True)
+class Slot:
+    """The place of a case: which draw of which level of which scenario."""
+
+    scenario: str
+    level: float
+    index: int
+
+
+def slots(config: RunConfig) -> list[Slot]:
+    """Every case of the run, in the order of the tables. Raises ConfigError or ValueError for unknown names and levels."""
+    found = []
+    for choice in config.scenarios:
+        scenario = scenarios.get(choice.name)
+        for level in choice.levels or scenario.levels:
+            scenario.check_level(level)
+            found += [Slot(choice.name, float(level), i) for i in range(choice.cases)]
+    return found
+
+
+def make_cases(store: Store, config: RunConfig, workers: int) -> None:
+    """Write cases.parquet and bodies.parquet; parts that are there already are not made again."""
+    import pandas as pd
+
+    if store.has("cases.parquet"):
+        return
+    all_slots = slots(config)
+    chunks = [all_slots[i:i + CHUNK] for i in range(0, len(all_slots), CHUNK)]
+    names = [("parts", "cases", f"{i:05d}.parquet") for i in range(len(chunks))]
+    bodies = [("parts", "bodies", name[-1]) for name in names]
+
+    def keep(i):
+        def done(results):
+            found = {row["body"]: row for _, rows in results for row in rows}
+            store.write(pd.DataFrame(list(found.values())), *bodies[i])
+            store.write(pd.DataFrame([row for row, _ in results]), *names[i])
+        return done
+
+    tasks = [Task(_open, config.seed, chunk, keep(i), lambda slot, status, detail: _lost(config.seed, slot, detail))
+             for i, chunk in enumerate(chunks) if not store.has(*names[i])]
+    with stage("certify cases", len(all_slots)) as advance:
+        advance(len(all_slots) - sum(len(t.items) for t in tasks))
+        run(tasks, workers, config.label_seconds, store.path("workers.log"), advance)
+    cases = pd.concat([store.read(*name) for name in names], ignore_index=True)
+    found = pd.concat([store.read(*name) for name in bodies], ignore_index=True).drop_duplicates("body", ignore_index=True)
+    store.write(found, "bodies.parquet")
+    store.write(cases, "cases.parquet")
+
+
+def _open(seed: int):
+    from .truth import label
+
+    return lambda slot: _label(seed, slot, label)
+
+
+def _label(seed: int, slot: Slot, label) -> tuple[dict, list[dict]]:
+    scenario = scenarios.get(slot.scenario)
+    for attempt in range(REDRAWS):
+        case = scenario.case(seed, slot.level, slot.index, attempt)
+        truth = label(case.query)
+        if not scenario.useless(truth):
+            break
+    return _rows(case, truth, attempt)
+
+
+def _lost(seed: int, slot: Slot, detail: str) -> tuple[dict, list[dict]]:
+    case = scenarios.get(slot.scenario).case(seed, slot.level, slot.index)
+    return _rows(case, Truth("uncertain", reason=f"labelling stopped: {detail}"), 0)
+
+
+def _rows(case: Case, truth: Truth, attempt: int) -> tuple[dict, list[dict]]:
+    return case_row(case, truth, attempt), [body_row(case.query.a), body_row(case.query.b)]

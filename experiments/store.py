@@ -1,0 +1,76 @@
+"""The run folder: what is in it, written so that a kill at any moment loses at most the part being made."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pandas as pd
+
+from .config import RunConfig
+
+
+class StoreError(RuntimeError):
+    """A run folder that cannot be used; the message says why and what to do."""
+
+
+class Store:
+    """One run = one folder: config.json, manifest.json, cases.parquet, bodies.parquet, observations.parquet, timings.parquet,
+    tables/, figures/; `parts/` holds finished pieces of an unfinished run and is removed at its end.
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+
+    def path(self, *names: str) -> Path:
+        path = self.folder.joinpath(*names)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        return path
+
+    def begin(self, config: RunConfig) -> None:
+        """Claim the folder for this configuration, or go on with the same one. StoreError where another run is there."""
+        wanted = config.model_dump(mode="json")
+        if self.path("config.json").exists():
+            found = json.loads(self.path("config.json").read_text())
+            if found != wanted:
+                changed = ", ".join(k for k in wanted if found.get(k) != wanted[k])
+                raise StoreError(f"The folder {self.folder} holds a run of another configuration (it differs in: {changed}). "
+                                 "Choose another folder with --out, or remove that one.")
+        elif self.folder.exists() and any(self.folder.iterdir()):
+            raise StoreError(f"The folder {self.folder} is not empty and holds no run. Choose another one with --out.")
+        else:
+            self.write_text(json.dumps(wanted, indent=1), "config.json")
+
+    @property
+    def config(self) -> RunConfig:
+        if not (self.folder / "config.json").is_file():
+            raise StoreError(f"{self.folder} is no run folder: it has no config.json. Make one with: ofg-bench run quick --out {self.folder}")
+        return RunConfig.model_validate_json((self.folder / "config.json").read_text())
+
+    def has(self, *names: str) -> bool:
+        return self.folder.joinpath(*names).exists()
+
+    def write(self, frame: pd.DataFrame, *names: str) -> None:
+        _replace(self.path(*names), lambda temporary: frame.to_parquet(temporary, index=False, compression="zstd"))
+
+    def write_text(self, text: str, *names: str) -> None:
+        _replace(self.path(*names), lambda temporary: temporary.write_text(text))
+
+    def read(self, *names: str) -> pd.DataFrame:
+        path = self.folder.joinpath(*names)
+        if not path.is_file():
+            raise StoreError(f"{path} is missing: the run in {self.folder} is not finished. Finish it with: ofg-bench resume {self.folder}")
+        return pd.read_parquet(path)
+
+
+def _replace(path: Path, write) -> None:
+    """Write beside the target and rename, so that a file is there whole or not at all."""
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        write(temporary)
+        os.replace(temporary, path)
+    except OSError as error:
+        temporary.unlink(missing_ok=True)
+        raise StoreError(f"{path} could not be written: {error.strerror or error}. What was finished before is kept; free some "
+                         "space or choose another folder, then say: ofg-bench resume RUN") from error
