@@ -37,13 +37,15 @@ class Method(ABC):
     name: ClassVar[str]  #: unique, lower case, as in the tables: "fcl-convex"
     engine: ClassVar[str]  #: distribution whose version the manifest records: "python-fcl"
     imports: ClassVar[str]  #: module that must import: "fcl"
-    configuration: ClassVar[str]  #: "default" (what the documentation shows a newcomer), "best effort", or "as written"
+    configuration: ClassVar[str]  #: "default" (what the documentation shows a newcomer), "best effort", "alternative", "as written"
     questions: ClassVar[frozenset[str]]  #: subset of ofg.QUESTIONS
     bodies: ClassVar[frozenset[str]]  #: subset of {"convex", "union", "mesh"}
     solid: ClassVar[bool]  #: False: tests surfaces, so a contained body is not seen
     gives_time: ClassVar[bool] = False  #: returns a time of impact for sweeps
     margin: ClassVar[float] = 0.0  #: documented distance (length) below which a clear pair may be called a hit
     guarantee: ClassVar[str]  #: one line: what an answer is worth by its documentation
+    time_error: float = nan  #: documented bound on |time - true time|, as a share of the step; may be a property
+    environment: ClassVar[Mapping[str, str]] = {}  #: variables that must be set before the worker's Python starts
     parameters: ClassVar[Mapping[str, Any]] = {}  #: name -> default; the first is the one its accuracy-speed curve runs over
 
     def __init__(self, **parameters):

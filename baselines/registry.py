@@ -1,0 +1,120 @@
+"""Find methods by name, and make them from the words of a configuration or of the command line."""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import importlib.metadata
+import importlib.util
+import pkgutil
+from functools import cache
+from itertools import product
+from pathlib import Path
+from types import ModuleType
+
+from .contract import Method
+
+
+class UnknownMethod(ValueError):
+    """No method has this name, or its specification cannot be read; the message says what can be done."""
+
+
+@cache
+def methods() -> dict[str, type[Method]]:
+    """name -> class of every method in `baselines/`, by name. Imports no engine."""
+    import baselines
+
+    found: dict[str, type[Method]] = {}
+    for module in pkgutil.iter_modules(baselines.__path__):
+        _collect(importlib.import_module(f"baselines.{module.name}"), found)
+    return dict(sorted(found.items()))
+
+
+def load_file(path) -> dict[str, type[Method]]:
+    """The methods of a reader's own Python file, which ends with METHODS = [Class, ...]; they join `methods()`.
+
+    ValueError if the file does not exist or declares none.
+    """
+    path = Path(path).resolve()
+    if not path.is_file():
+        raise ValueError(f"Method file {path.name} does not exist; give the path of a Python file that defines METHODS = [Class, ...].")
+    spec = importlib.util.spec_from_file_location(f"baselines_file_{path.stem}", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    found: dict[str, type[Method]] = {}
+    _collect(module, found)
+    if not found:
+        raise ValueError(f"Method file {path.name} declares no method; end it with METHODS = [Class, ...], where each Class is a "
+                         "subclass of baselines.contract.Method.")
+    known = methods()
+    for name, cls in found.items():
+        if name in known and not getattr(known[name], "__module__", "").startswith("baselines_file_"):
+            raise ValueError(f"Method file {path.name}: the name '{name}' is taken by {known[name].__module__}; choose another.")
+    known.update(found)
+    return found
+
+
+def make(spec: str) -> list[Method]:
+    """'ofg k=4,8 toi=velocity' -> the configurations it names: commas give several, typed by the parameter's default.
+
+    UnknownMethod with the closest names; MissingEngine if the method's engine is not installed.
+    """
+    name, *words = spec.split() or [""]
+    cls = _find(name)
+    choices = {}
+    for word in words:
+        key, equals, values = word.partition("=")
+        if not equals or not values:
+            raise UnknownMethod(f"Method specification '{spec}': '{word}' is not of the form parameter=value or parameter=value,value.")
+        if key not in cls.parameters:
+            known = ", ".join(f"{k} (default {v})" for k, v in cls.parameters.items()) or "no parameter"
+            raise UnknownMethod(f"Method specification '{spec}': '{name}' has no parameter '{key}'; it has {known}.")
+        choices[key] = [_typed(value, cls.parameters[key], key, spec) for value in values.split(",")]
+    return [cls(**dict(zip(choices, combination))) for combination in product(*choices.values())]
+
+
+def available(cls: type[Method]) -> str | None:
+    """None if the method's engine can be imported here, else the reason and the remedy."""
+    try:
+        found = importlib.util.find_spec(cls.imports) is not None
+    except (ImportError, ValueError):
+        found = False
+    return None if found else f"{cls.engine} is not installed; install it with: pip install {cls.engine}"
+
+
+def version(cls: type[Method]) -> str:
+    """Version of the engine's distribution, as the manifest records it; 'absent' where it is not installed."""
+    try:
+        return importlib.metadata.version(cls.engine)
+    except importlib.metadata.PackageNotFoundError:
+        return "absent"
+
+
+def _collect(module: ModuleType, found: dict[str, type[Method]]) -> None:
+    for cls in getattr(module, "METHODS", ()):
+        if cls.name in found:
+            raise ValueError(f"Two methods are named '{cls.name}': {found[cls.name].__module__} and {cls.__module__}; rename one.")
+        found[cls.name] = cls
+
+
+def _find(name: str) -> type[Method]:
+    known = methods()
+    if name in known:
+        return known[name]
+    close = difflib.get_close_matches(name, known, n=3, cutoff=0.4) or sorted(known)
+    raise UnknownMethod(f"No method is named '{name}'. Closest: {', '.join(close)}. `ofg-bench list` prints all {len(known)}; a method "
+                        "of your own is given by its file.")
+
+
+def _typed(text: str, default, key: str, spec: str):
+    if isinstance(default, bool):
+        if text.lower() in ("true", "yes", "on", "1"):
+            return True
+        if text.lower() in ("false", "no", "off", "0"):
+            return False
+    else:
+        try:
+            return type(default)(text)
+        except ValueError:
+            pass
+    raise UnknownMethod(f"Method specification '{spec}': {key}={text} is not of type {type(default).__name__} (the default is {default}).")

@@ -1,0 +1,65 @@
+"""Discrete engines: one overlap test at a pose, and sweeps by testing the poses on the way."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Any, Callable
+
+from ofg import Pose, Query
+
+from .contract import Method, Verdict
+
+Place = Callable[[Pose], Any]  #: pose of A -> the engine's own form of it, made before the clock starts
+Test = Callable[[Any], bool]  #: placed pose of A -> do A and B overlap? B stays where it is
+
+
+class Discrete(Method):
+    """An engine that answers `overlap` at one pose. Subclasses write `build`."""
+
+    questions = frozenset({"overlap"})
+
+    @abstractmethod
+    def build(self, query: Query) -> tuple[Place, Test]:
+        """Both bodies in the engine's form, B at query.pose_b."""
+
+    def prepare(self, query: Query) -> Callable[[], Verdict]:
+        self.refuse(query)
+        place, test = self.build(query)
+        pose = place(query.pose_a)
+        return lambda: Verdict(bool(test(pose)))
+
+
+class Substeps(Discrete):
+    """The sweep as the users of a discrete engine run it: the overlap test at t = i/n for i = 1 .. n, first hit wins.
+
+    The start pose is not tested: in a stepping loop it was the end pose of the step before. n = 1 is the end pose only. The time
+    reported is that of the first sampled hit, so it is late by up to 1/n and never early. Put this class before the engine's
+    Discrete one: `class BoxSubsteps(Substeps, Box)`.
+    """
+
+    questions = frozenset({"translation", "motion"})
+    gives_time = True
+    parameters = {"n": 16}
+
+    def __init__(self, **parameters):
+        super().__init__(**parameters)
+        if self.parameters["n"] < 1:
+            raise ValueError(f"Method '{self.name}': n = {self.parameters['n']} substeps; give 1 or more.")
+
+    @property
+    def time_error(self) -> float:
+        return 1 / self.parameters["n"]
+
+    def prepare(self, query: Query) -> Callable[[], Verdict]:
+        self.refuse(query)
+        place, test = self.build(query)
+        n = self.parameters["n"]
+        samples = [(i / n, place(query.motion.pose_at(query.pose_a, i / n))) for i in range(1, n + 1)]
+
+        def ask() -> Verdict:
+            for time, pose in samples:
+                if test(pose):
+                    return Verdict(True, time)
+            return Verdict(False)
+
+        return ask
