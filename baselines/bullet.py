@@ -1,0 +1,128 @@
+"""Bullet 3 through PyBullet: convex hulls by getClosestPoints, at one pose or at substeps.
+
+Sweeps are sampled, because getClosestPoints knows no motion; Bullet's own swept sphere belongs to the stepping track.
+A union is a plain loop over all pairs of pieces: PyBullet's compound shape takes no vertices. Meshes are refused: a hull would be
+another body, and mesh against mesh silently returns nothing.
+Traps worked around here:
+- A hull is given by its vertices only; with indices it would become a concave mesh.
+- A hull that is not removed leaks 27 KiB, so each dies with the query it was built for.
+- One DIRECT client per process: a client costs 28 MB, and many of them get the process killed.
+- pybullet prints a line at import and a warning at each removal; both are kept off the standard output.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import weakref
+from contextlib import contextmanager
+from functools import cache
+from itertools import product
+
+from ofg import Body, Pose, Query
+
+from .contract import MissingEngine, Unsupported
+from .sampling import Discrete, Substeps
+
+MARGIN = 0.001  # of each hull, whatever its size; cubes in 200 rotations: distances are 2e-3 short to within 1e-12
+
+
+class Bullet(Discrete):
+    """As it comes: hulls carry a margin of 0.001 each, so pairs closer than 0.002 are reported to touch."""
+
+    name = "bullet"
+    engine, imports = "pybullet", "pybullet"
+    configuration = "default"
+    bodies = frozenset({"convex", "union"})
+    solid = True
+    margin = 2 * MARGIN
+    guarantee = "GJK/EPA in doubles on hulls grown by 0.001 each"
+    threshold = 0.0  #: a reported distance below this is an overlap
+
+    def build(self, query: Query):
+        bullet, client = _client()
+        shapes_a, shapes_b = (_hulls(bullet, client, body) for body in (query.a, query.b))
+        pairs = list(product(shapes_a, shapes_b))
+        position_b, turn_b = _place(query.pose_b)
+        threshold = self.threshold
+
+        def test(at) -> bool:
+            position, turn = at
+            for a, b in pairs:
+                points = bullet.getClosestPoints(
+                    -1, -1, 0.0, collisionShapeA=a, collisionShapeB=b, collisionShapePositionA=position, collisionShapeOrientationA=turn,
+                    collisionShapePositionB=position_b, collisionShapeOrientationB=turn_b, physicsClientId=client)
+                if any(point[8] < threshold for point in points):
+                    return True
+            return False
+
+        weakref.finalize(test, _remove, bullet, client, shapes_a + shapes_b)
+        return _place, test
+
+
+class BulletNoMargin(Bullet):
+    """The margins added back to the reported distance: right to 1e-12 on cubes at gaps from 1e-1 to -1e-1."""
+
+    name = "bullet-no-margin"
+    configuration = "best effort"
+    margin = 0.0
+    threshold = -2 * MARGIN
+    guarantee = "GJK/EPA in doubles on hulls grown by 0.001 each, the growth subtracted from the distance"
+
+
+class BulletSubsteps(Substeps, Bullet):
+    name = "bullet-substeps"
+    guarantee = "bullet at n poses; blind between them"
+
+
+class BulletNoMarginSubsteps(Substeps, BulletNoMargin):
+    name = "bullet-no-margin-substeps"
+    guarantee = "bullet-no-margin at n poses; blind between them"
+
+
+@cache
+def _client():
+    try:
+        with _quiet():
+            import pybullet
+    except ImportError as error:
+        raise MissingEngine("pybullet is not installed; install it with: pip install pybullet") from error
+    return pybullet, pybullet.connect(pybullet.DIRECT)
+
+
+def _hulls(bullet, client: int, body: Body) -> list[int]:
+    shapes = [bullet.createCollisionShape(bullet.GEOM_MESH, vertices=p.vertices.tolist(), physicsClientId=client) for p in body.pieces]
+    if min(shapes) < 0:
+        raise Unsupported(f"pybullet makes no hull of body '{body.name}'")
+    return shapes
+
+
+def _remove(bullet, client: int, shapes: list[int]) -> None:
+    if bullet.isConnected(client):
+        with _quiet():
+            for shape in shapes:
+                bullet.removeCollisionShape(shape, physicsClientId=client)
+
+
+@contextmanager
+def _quiet():
+    """Send what C code prints to nowhere. C buffers apart from Python, so its buffer is flushed while still diverted."""
+    flush = ctypes.CDLL(None).fflush
+    flush(None)
+    saved, null = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, 1)
+    try:
+        yield
+    finally:
+        flush(None)
+        os.dup2(saved, 1)
+        os.close(saved)
+        os.close(null)
+
+
+def _place(pose: Pose) -> tuple[list, list]:
+    w, x, y, z = pose.quaternion.tolist()
+    return pose.position.tolist(), [x, y, z, w]
+
+
+METHODS = [Bullet, BulletNoMargin, BulletSubsteps, BulletNoMarginSubsteps]
