@@ -1,0 +1,59 @@
+"""The scenario families: every file of this folder that does not start with an underscore defines one as SCENARIO."""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import importlib.util
+import pkgutil
+from functools import cache
+from pathlib import Path
+
+from experiments.scenario import Scenario
+
+_NOT_SCENARIOS = {"draw", "page"}
+
+
+@cache
+def scenarios() -> dict[str, Scenario]:
+    """All families by name, in alphabetical order. Adding one means adding a file here, and nothing else."""
+    found = {}
+    for module in sorted(m.name for m in pkgutil.iter_modules(__path__)):
+        if not module.startswith("_") and module not in _NOT_SCENARIOS:
+            scenario = importlib.import_module(f"{__name__}.{module}").SCENARIO
+            if scenario.name != module:
+                raise ValueError(f"Scenario file {module}.py defines a scenario named '{scenario.name}'; the two must be the same, "
+                                 "so that a row of a table leads to its file. Rename one of them.")
+            found[module] = scenario
+    return found
+
+
+def get(name: str) -> Scenario:
+    """The family of that name. ValueError with the closest names where there is none."""
+    known = scenarios()
+    if name in known:
+        return known[name]
+    close = difflib.get_close_matches(name, known, n=3, cutoff=0.4)
+    hint = f"did you mean {', '.join(close)}? " if close else ""
+    raise ValueError(f"Scenario '{name}' is unknown; {hint}The families are: {', '.join(known)}. A scenario of your own is given as the "
+                   "path of a Python file that defines SCENARIO.")
+
+
+def load_file(path) -> list[Scenario]:
+    """The scenarios of a Python file outside this folder, which defines SCENARIO, or SCENARIOS (several).
+
+    FileNotFoundError or ValueError where the file is missing or defines neither.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise FileNotFoundError(f"Scenario file {path} does not exist; give the path of a Python file that defines SCENARIO.")
+    spec = importlib.util.spec_from_file_location(f"scenario_file_{path.stem}", path)
+    if spec is None:
+        raise ValueError(f"Scenario file {path} is not a Python file; its name must end in .py.")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    found = list(getattr(module, "SCENARIOS", [])) or [s for s in [getattr(module, "SCENARIO", None)] if s is not None]
+    if not found or not all(isinstance(s, Scenario) for s in found):
+        raise ValueError(f"Scenario file {path} defines no scenario; it must set SCENARIO = Scenario(...), or SCENARIOS to a list of "
+                         "them (from experiments.scenario import Scenario, Draft).")
+    return found

@@ -1,0 +1,21 @@
+"""Two convex bodies with one feature each a prescribed distance apart, or inside each other by as much."""
+
+from experiments.scenario import Draft, Scenario
+from experiments.shapes import any_convex
+
+from ._place import FEATURE_PAIRS, seat
+
+
+def generate(rng, level) -> Draft:
+    s = seat(rng, any_convex(rng), any_convex(rng), FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
+    return s.draft(level * s.size * s.normal, [0, 0, 0])
+
+
+SCENARIO = Scenario(
+    name="feature_gap",
+    question="overlap",
+    exposes="absolute and relative tolerances: a method errs from the gap on at which its own epsilon begins",
+    axis="signed gap / size",
+    levels=tuple(sign * 10.0**-e for e in (1, 2, 3, 4, 6, 8, 10, 12, 14, 16) for sign in (1, -1)),
+    generate=generate,
+)

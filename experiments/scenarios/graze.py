@@ -1,0 +1,27 @@
+"""A body slides past another with a prescribed clearance, or scrapes it by as much, on a path parallel to the contact plane."""
+
+from experiments.scenario import Draft, Scenario
+from experiments.shapes import any_convex
+
+from ofg import Motion
+
+from ._place import FEATURE_PAIRS, seat
+
+
+def generate(rng, level) -> Draft:
+    s = seat(rng, any_convex(rng), any_convex(rng), FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
+    x, y = rng.choice([-1, 1], 2) * rng.integers(1, 8, 2)
+    half = s.exact(x, y, 0, 1.5 * max(s.a.size, s.b.size))
+    # The clearance sits in B's position and the path in A's: their sum would round the clearance away.
+    return s.draft(-half, -level * s.size * s.normal, Motion(2 * half))
+
+
+SCENARIO = Scenario(
+    name="graze",
+    question="translation",
+    exposes="false alarms of conservative sweeps, and misses of shallow scrapes",
+    axis="signed clearance / size",
+    levels=tuple(sign * 10.0**-e for e in (1, 2, 3, 4, 6, 8, 10, 12) for sign in (1, -1)),
+    generate=generate,
+    redraw_if=("start-overlap",),
+)

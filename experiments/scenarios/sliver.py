@@ -1,0 +1,33 @@
+"""Needles and plates that nearly touch: a gap of half the thickness, either way, between bodies of extreme aspect."""
+
+from experiments.scenario import Draft, Scenario
+from experiments.shapes import any_convex, plate, rod
+
+from ._place import seat
+
+PAIRS = {  # what meets, and by which features
+    "needle on needle": "edge-edge crossing",
+    "plate on needle": "edge-face",
+    "body on plate": "vertex-face",
+    "plate on plate": "edge-edge crossing",
+}
+
+
+def generate(rng, level) -> Draft:
+    kind = list(PAIRS)[rng.integers(len(PAIRS))]
+    thin = {"needle": lambda: rod(level), "plate": lambda: plate(level), "body": lambda: any_convex(rng)}
+    a, b = (thin[word]() for word in kind.split(" on "))
+    s = seat(rng, a, b, PAIRS[kind])
+    s.tags["kind"] = kind
+    gap = rng.choice([-0.5, 0.5]) * 2 / level
+    return s.draft(gap * s.normal, [0, 0, 0])
+
+
+SCENARIO = Scenario(
+    name="sliver",
+    question="overlap",
+    exposes="edge-edge axes that get lost, and large thin faces whose centres are far from the contact (OFG's selection)",
+    axis="aspect: length / thickness",
+    levels=(10.0, 100.0, 1e3, 1e4),
+    generate=generate,
+)
