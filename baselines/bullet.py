@@ -7,7 +7,7 @@ Traps worked around here:
 - A hull is given by its vertices only; with indices it would become a concave mesh.
 - A hull that is not removed leaks 27 KiB, so each dies with the query it was built for.
 - One DIRECT client per process: a client costs 28 MB, and many of them get the process killed.
-- pybullet prints a line at import and a warning at each removal; both are kept off the standard output.
+- pybullet prints a line at import and a warning at each removal; both are kept off the terminal.
 """
 
 from __future__ import annotations
@@ -109,14 +109,16 @@ def _quiet():
     """Send what C code prints to nowhere. C buffers apart from Python, so its buffer is flushed while still diverted."""
     flush = ctypes.CDLL(None).fflush
     flush(None)
-    saved, null = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    saved, null = [os.dup(1), os.dup(2)], os.open(os.devnull, os.O_WRONLY)
     os.dup2(null, 1)
+    os.dup2(null, 2)
     try:
         yield
     finally:
         flush(None)
-        os.dup2(saved, 1)
-        os.close(saved)
+        for stream, copy in enumerate(saved, start=1):
+            os.dup2(copy, stream)
+            os.close(copy)
         os.close(null)
 
 
