@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import pandas as pd
 
@@ -10,7 +11,7 @@ from baselines import registry
 from baselines.contract import MissingEngine, Unsupported
 
 from .case import Case
-from .config import RunConfig
+from .config import RunConfig, load_files
 from .pool import Task, run
 from .progress import stage
 from .rows import cases_of
@@ -35,7 +36,7 @@ def ask(store: Store, config: RunConfig, workers: int) -> None:
                 tasks.append(_task(store, method, chunk, names[-1]))
     with stage("ask methods", len(cases) * len(methods)) as advance:
         advance(len(cases) * len(methods) - sum(len(t.items) for t in tasks))
-        run(tasks, workers, config.query_seconds, store.path("workers.log"), advance)
+        run(tasks, workers, config.query_seconds, store.path("workers.log"), advance, partial(load_files, config))
     store.write(pd.concat([store.read(*name) for name in names], ignore_index=True), "observations.parquet")
 
 

@@ -43,6 +43,8 @@ class RunConfig(_Strict):
     methods: tuple[str, ...] = Field(min_length=1)
     scenarios: tuple[ScenarioChoice, ...] = Field(min_length=1)
     timing: TimingChoice = TimingChoice()
+    method_files: tuple[str, ...] = Field(default=(), description="Python files with METHODS = [...] of your own")
+    scenario_files: tuple[str, ...] = Field(default=(), description="Python files with SCENARIO = ... of your own")
     query_seconds: float = Field(default=10.0, gt=0, description="limit for one query, after which it counts as timeout")
     label_seconds: float = Field(default=30.0, gt=0, description="limit for one label, after which it counts as uncertain")
 
@@ -69,6 +71,18 @@ def load(source: str) -> RunConfig:
     except ValidationError as error:
         raise ConfigError(f"The configuration file {path} has {error.error_count()} wrong field(s): " + "; ".join(
             f"{'.'.join(map(str, e['loc']))}: {e['msg'][:1].lower()}{e['msg'][1:]}" for e in error.errors()) + ".") from error
+
+
+def load_files(config: RunConfig) -> None:
+    """Make the methods and scenarios of the configuration's own files known to this process."""
+    from baselines import registry
+
+    from . import scenarios
+
+    for path in config.method_files:
+        registry.load_file(path)
+    for path in config.scenario_files:
+        scenarios.load_file(path)
 
 
 def closest(word: str, words) -> str:

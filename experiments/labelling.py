@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
+
+import pandas as pd
 
 from . import scenarios
 from .case import Case
-from .config import RunConfig
+from .config import RunConfig, load_files
 from .pool import Task, run
 from .progress import stage
 from .rows import body_row, case_row
@@ -39,8 +42,6 @@ def slots(config: RunConfig) -> list[Slot]:
 
 def make_cases(store: Store, config: RunConfig, workers: int) -> None:
     """Write cases.parquet and bodies.parquet; parts that are there already are not made again."""
-    import pandas as pd
-
     if store.has("cases.parquet"):
         return
     all_slots = slots(config)
@@ -59,7 +60,7 @@ def make_cases(store: Store, config: RunConfig, workers: int) -> None:
              for i, chunk in enumerate(chunks) if not store.has(*names[i])]
     with stage("certify cases", len(all_slots)) as advance:
         advance(len(all_slots) - sum(len(t.items) for t in tasks))
-        run(tasks, workers, config.label_seconds, store.path("workers.log"), advance)
+        run(tasks, workers, config.label_seconds, store.path("workers.log"), advance, partial(load_files, config))
     cases = pd.concat([store.read(*name) for name in names], ignore_index=True)
     found = pd.concat([store.read(*name) for name in bodies], ignore_index=True).drop_duplicates("body", ignore_index=True)
     store.write(found, "bodies.parquet")

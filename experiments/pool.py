@@ -46,8 +46,10 @@ def limit(seconds: float):
         faulthandler.cancel_dump_traceback_later()
 
 
-def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance: Callable[[int], None] = lambda n: None) -> None:
+def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance: Callable[[int], None] = lambda n: None,
+        prepare: Callable[[], None] | None = None) -> None:
     """Run all tasks, each in a fresh process, `workers` at a time. seconds: limit for one item. log: what processes print.
+    prepare: called first in each process.
 
     A fresh process for each task makes results independent of the number of workers: what an engine leaves in its memory
     is seen by the later items of the same task alone. pebble tells which task a dead process was at.
@@ -59,7 +61,7 @@ def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance:
 
         def submit(task: Task, before: list) -> None:
             journal = Path(folder, f"{id(task)}-{len(before)}")
-            future = pool.schedule(_work, (task.open, task.argument, list(task.items[len(before):]), seconds, journal, log))
+            future = pool.schedule(_work, (prepare, task.open, task.argument, list(task.items[len(before):]), seconds, journal, log))
             waiting[future] = (task, before, journal)
 
         try:
@@ -83,12 +85,14 @@ def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance:
             raise
 
 
-def _work(open_, argument, items, seconds, journal, log) -> None:
+def _work(prepare, open_, argument, items, seconds, journal, log) -> None:
     """In the worker: append each result to the journal as soon as it is there, so that a death loses the current item only."""
     output = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND)
     os.dup2(output, 1), os.dup2(output, 2)
     with open(journal, "wb") as stream:
         with limit(max(60.0, seconds)):  # imports of engines, not an answer
+            if prepare:
+                prepare()
             answer = open_(argument)
         for item in items:
             with limit(seconds):

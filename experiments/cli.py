@@ -1,0 +1,167 @@
+"""The command line: ofg-bench."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated, Optional
+
+import typer
+from rich.console import Console
+from rich.table import Table as Grid
+
+from baselines import registry
+from ofg import BodyError
+
+from . import config as configuration
+from . import scenarios
+from .store import Store, StoreError
+
+app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", pretty_exceptions_enable=False, add_completion=False,
+                  help="""Benchmark collision detection on cases whose true answers are certified.
+
+A run is one folder: `ofg-bench run quick` makes cases, certifies them, asks every method, takes times and prints the tables.
+`ofg-bench list` shows what there is; a configuration of your own starts from `ofg-bench preset quick > mine.toml`.""")
+console = Console()
+Run = Annotated[Path, typer.Argument(help="folder of a run")]
+Workers = Annotated[Optional[int], typer.Option(min=1, help="processes for all but the timing [default: one per core]")]
+SkipMissing = Annotated[bool, typer.Option("--skip-missing", help="leave rows of engines that are not installed empty")]
+Methods = Annotated[Optional[list[Path]], typer.Option("--methods", help="Python file with methods of your own (METHODS = [...]); may be repeated")]
+Scenarios = Annotated[Optional[list[Path]], typer.Option("--scenarios", help="Python file with scenarios of your own (SCENARIO = ...); may be repeated")]
+
+
+@app.command("list")
+def list_(methods: Methods = None, scenarios_: Scenarios = None) -> None:
+    """Show scenarios, methods (what each can answer, and whether its engine is installed) and presets."""
+    _extend(methods, scenarios_)
+    _print_grid("Scenarios", ("name", "question", "difficulty", "levels", "exposes"),
+                [(s.name, s.question, s.axis, _levels(s.levels), s.exposes) for s in scenarios.scenarios().values()])
+    _print_grid("Methods", ("name", "configuration", "questions", "bodies", "tests", "parameters", "engine"),
+                [(m.name, m.configuration, " ".join(q[0] for q in ("overlap", "translation", "motion") if q in m.questions),
+                  ", ".join(sorted(m.bodies)), "solid" if m.solid else "surface", " ".join(f"{k}={v}" for k, v in m.parameters.items()),
+                  "not installed" if registry.available(m) else m.engine) for m in registry.methods().values()])
+    console.print("Questions: [b]o[/b]verlap at one pose pair, [b]t[/b]ranslation, [b]m[/b]otion (turning and translating).")
+    console.print(f"Presets: {', '.join(configuration.presets())}.")
+
+
+@app.command()
+def preset(name: str) -> None:
+    """Print a preset's configuration, to be changed and run: ofg-bench preset quick > mine.toml"""
+    configuration.load(name)
+    print((configuration.PRESETS / f"{name}.toml").read_text(), end="")
+
+
+@app.command()
+def run(
+    source: Annotated[str, typer.Argument(metavar="CONFIG", help="a preset's name, or the path of a .toml file")],
+    out: Annotated[Optional[Path], typer.Option(help="folder of the run [default: results/runs/CONFIG]")] = None,
+    workers: Workers = None,
+    seed: Annotated[Optional[int], typer.Option(min=0, help="another seed than the configuration's")] = None,
+    skip_missing: SkipMissing = False,
+    methods: Methods = None,
+    scenarios_: Scenarios = None,
+) -> None:
+    """Run a configuration and print its tables. Said again, it goes on where it was interrupted."""
+    chosen = configuration.load(source)
+    changes = {"seed": chosen.seed if seed is None else seed,
+               "method_files": chosen.method_files + tuple(map(str, methods or ())),
+               "scenario_files": chosen.scenario_files + tuple(map(str, scenarios_ or ()))}
+    _run(chosen.model_copy(update=changes), out or Path("results", "runs", Path(source).stem), workers, skip_missing)
+
+
+@app.command()
+def resume(run_: Run, workers: Workers = None, skip_missing: SkipMissing = False) -> None:
+    """Finish a run that was interrupted. It ends as if it had not been."""
+    _run(Store(run_).config, run_, workers, skip_missing)
+
+
+def _run(config: configuration.RunConfig, folder: Path, workers: int | None, skip_missing: bool) -> None:
+    from . import runner
+
+    store = runner.run(config, folder, workers, skip_missing)
+    _print_tables(store, "")
+    console.print(f"Tables (CSV, Markdown) are in {folder / 'tables'}, figures (SVG, PNG) in {folder / 'figures'}; every case with its "
+                  f"certificate in {folder / 'cases.parquet'}, every answer in {folder / 'observations.parquet'}.")
+
+
+@app.command()
+def tables(run_: Run, only: Annotated[str, typer.Option(help="print only tables whose name contains this")] = "") -> None:
+    """Build the tables of a finished run anew from its rows, and print them."""
+    from . import tables as made
+
+    store = _open(run_)
+    made.save(store, list(made.build(store)))
+    _print_tables(store, only)
+
+
+@app.command()
+def figures(run_: Run) -> None:
+    """Draw the figures of a finished run anew."""
+    from . import figures as drawn
+
+    drawn.accuracy_speed(_open(run_))
+    console.print(f"Figures are in {run_ / 'figures'}.")
+
+
+@app.command()
+def check(name: Annotated[str, typer.Argument(metavar="METHOD", help='a method, with parameters if any: "ofg k=16"')], methods: Methods = None) -> None:
+    """Put a method through the conformance suite that every method here must pass."""
+    from baselines import conformance
+
+    _extend(methods, None)
+    failed = 0
+    for method in registry.make(name):
+        results = conformance.check(method)
+        failed += sum(not ok for _, ok, _ in results)
+        _print_grid(method.label, ("property", "", "detail"), [(n, "ok" if ok else "FAILED", detail) for n, ok, detail in results])
+    raise typer.Exit(1 if failed else 0)
+
+
+def _print_tables(store: Store, only: str) -> None:
+    from . import tables as made
+
+    for table in made.build(store):
+        if only in table.name:
+            _print_grid(table.title, list(table.text.columns), table.text.itertuples(index=False), table.caption)
+
+
+def _print_grid(title: str, columns, rows, caption: str = "") -> None:
+    """One table, no wider than the terminal; the first column is never shortened."""
+    grid = Grid(title=title, caption=caption, title_justify="left", caption_justify="left", title_style="bold", box=None, pad_edge=False, header_style="bold")
+    for i, column in enumerate(columns):
+        numeric = title[:1].isupper() and i > 0 and "arning" not in column
+        grid.add_column(str(column), justify="right" if numeric and caption else "left", no_wrap=i == 0, overflow="fold")
+    for row in rows:
+        grid.add_row(*map(str, row))
+    console.print(grid)
+    console.print()
+
+
+def _levels(levels) -> str:
+    shown = [f"{v:g}" for v in levels]
+    return ", ".join(shown) if len(shown) < 9 else f"{shown[0]} .. {shown[-1]} ({len(shown)})"
+
+
+def _open(folder: Path) -> Store:
+    store = Store(folder)
+    configuration.load_files(store.config)
+    return store
+
+
+def _extend(methods, scenario_files) -> None:
+    for path in methods or ():
+        registry.load_file(path)
+    for path in scenario_files or ():
+        scenarios.load_file(path)
+
+
+def main() -> None:
+    """Entry point: errors of the user are one paragraph and exit code 2, not a traceback."""
+    try:
+        app()
+    except (ValueError, StoreError, BodyError, ImportError) as error:
+        Console(stderr=True).print(f"[bold red]Error.[/] {error}", highlight=False, soft_wrap=False)
+        sys.exit(2)
+    except KeyboardInterrupt:
+        Console(stderr=True).print("\nInterrupted. What is finished is kept; say the same command again to go on.")
+        sys.exit(130)

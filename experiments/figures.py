@@ -1,0 +1,106 @@
+"""The accuracy-versus-speed figure: wrong answers against net time, a curve per method, the Pareto front marked."""
+
+from __future__ import annotations
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+
+from baselines import registry
+
+from . import metrics
+from .store import Store
+from .timing import SIZES
+
+# Okabe and Ito's palette, told apart by every common colour vision; markers repeat the distinction in grey print.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999933")
+MARKERS = "osD^vP*Xh<>p"
+
+
+def accuracy_speed(store: Store) -> None:
+    """One figure per question, a panel per range of faces, as SVG and PNG in figures/."""
+    points = joined(store)
+    for question, part in points.groupby("question", sort=False):
+        figure = draw(part, question)
+        for suffix in ("svg", "png"):
+            path = store.path("figures", f"accuracy-speed-{question}.{suffix}")
+            figure.savefig(path, dpi=160, bbox_inches="tight", metadata={"Date": None} if suffix == "svg" else None)
+        plt.close(figure)
+
+
+def joined(store: Store) -> pd.DataFrame:
+    """A row per question, range of faces and method: net time (us), wrong rate with its interval, whether on the Pareto front."""
+    found = metrics.outcomes(store)
+    edges, names = [s[0] for s in SIZES] + [np.inf], [s[2] for s in SIZES]
+    found = found.assign(faces=pd.cut(found.faces, edges, right=False, labels=names).astype(str))
+    rates = metrics.rates(found, ["question", "faces", "method"])
+    rates["wrong"], rates["judged"] = rates.misses + rates.false_alarms, rates.hits + rates.clears
+    points = metrics.costs(store).drop(columns=["low", "high"]).merge(rates[rates.judged > 0], on=["question", "faces", "method"])
+    points["rate"] = points.wrong / points.judged
+    intervals = [metrics.wilson(w, n) for w, n in zip(points.wrong, points.judged)]
+    points["low"], points["high"] = zip(*intervals) if intervals else ((), ())
+    points["us"] = np.maximum(points.net, 10.0) / 1e3  # a net time below the clock's grain is drawn at 10 ns
+    points["front"] = False
+    for _, group in points[points.answered == points.asked].groupby(["question", "faces"], sort=False):
+        points.loc[pareto(group.us, group.rate), "front"] = True
+    return points
+
+
+def pareto(cost: pd.Series, loss: pd.Series) -> list:
+    """Index labels of the points that no other beats in both."""
+    order = pd.DataFrame({"cost": cost, "loss": loss}).sort_values(["cost", "loss"])
+    best_before = order.loss.cummin().shift(fill_value=np.inf)
+    return list(order.index[order.loss < best_before])
+
+
+def draw(part: pd.DataFrame, question: str) -> plt.Figure:
+    panels = [name for _, _, name in SIZES if name in set(part.faces)]
+    figure, axes = plt.subplots(1, len(panels), figsize=(3.3 * len(panels) + 1.2, 3.9), sharey=True, squeeze=False, layout="constrained")
+    styles = _styles(part.method)
+    for axis, faces in zip(axes[0], panels):
+        _panel(axis, part[part.faces == faces], styles)
+        axis.set_title(f"{faces} faces", fontsize=9)
+        axis.set_xlabel("net time per query, µs", fontsize=8)
+    axes[0, 0].set_ylabel("wrong answers, % of certified cases", fontsize=8)
+    handles = [plt.Line2D([], [], color=c, marker=m, ms=5, lw=1, label=name) for name, (c, m) in styles.items()]
+    handles.append(plt.Line2D([], [], color="0.4", lw=4, alpha=0.35, label="Pareto front (of those that answer all)"))
+    handles.append(plt.Line2D([], [], color="0.4", marker="o", mfc="white", ls="", ms=5, label="hollow: answers only part of the cases"))
+    figure.legend(handles=handles, loc="outside right upper", fontsize=7, frameon=False)
+    figure.suptitle(f"Accuracy against speed: {question}", fontsize=10)
+    return figure
+
+
+def _panel(axis, part: pd.DataFrame, styles) -> None:
+    front = part[part.front].sort_values("us")
+    axis.plot(front.us, 100 * front.rate, color="0.4", lw=4, alpha=0.35, drawstyle="steps-post", zorder=1)
+    for name, group in part.groupby(part.method.str.split().str[0], sort=False):
+        colour, marker = styles[name]
+        axis.plot(group.us, 100 * group.rate, color=colour, lw=1, zorder=2)
+        axis.errorbar(group.us, 100 * group.rate, yerr=100 * np.abs([group.rate - group.low, group.high - group.rate]), fmt="none", ecolor=colour, elinewidth=0.5, alpha=0.6, zorder=2)
+        whole = group.answered == group.asked
+        axis.plot(group.us[whole], 100 * group.rate[whole], color=colour, marker=marker, ms=5, ls="", zorder=3)
+        axis.plot(group.us[~whole], 100 * group.rate[~whole], color=colour, marker=marker, ms=5, ls="", mfc="white", zorder=3)
+        for row in group.itertuples():
+            if len(group) > 1:
+                axis.annotate(row.method.split()[1], (row.us, 100 * row.rate), textcoords="offset points", xytext=(3, 3), fontsize=5, color=colour)
+    axis.set_xscale("log")
+    axis.set_yscale("symlog", linthresh=1, linscale=0.6)
+    axis.set_ylim(-0.15, 110)
+    axis.set_yticks([0, 1, 3, 10, 30, 100], ["0", "1", "3", "10", "30", "100"])
+    axis.tick_params(labelsize=7)
+    axis.grid(alpha=0.25, lw=0.5)
+
+
+def _styles(methods) -> dict[str, tuple[str, str]]:
+    """A colour per engine, a marker per method of that engine."""
+    known = registry.methods()
+    styles, seen = {}, {}
+    for name in dict.fromkeys(label.split()[0] for label in methods):
+        engine = known[name].engine if name in known else name
+        colour, count = seen.get(engine, (COLOURS[len(seen) % len(COLOURS)], 0))
+        styles[name] = (colour, MARKERS[count % len(MARKERS)])
+        seen[engine] = (colour, count + 1)
+    return styles

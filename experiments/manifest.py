@@ -1,0 +1,64 @@
+"""What a run was made with, good enough to doubt a figure by."""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+import sys
+from datetime import datetime, timezone
+from importlib import metadata
+from pathlib import Path
+
+import psutil
+
+from baselines import registry
+
+from .config import RunConfig
+
+LIBRARIES = ("numpy", "scipy", "pandas", "pyarrow", "python-flint", "trimesh", "coacd", "ofg")
+
+
+def machine() -> dict:
+    """Processor, frequency, memory, load, system: no name of the machine and no path."""
+    frequency = psutil.cpu_freq()
+    return {
+        "processor": _processor(), "cores": os.cpu_count(), "mhz": round(frequency.current) if frequency else None,
+        "memory_gib": round(psutil.virtual_memory().total / 2**30), "load": [round(x, 2) for x in os.getloadavg()],
+        "system": platform.platform(), "python": sys.version.split()[0],
+    }
+
+
+def versions(config: RunConfig) -> dict:
+    engines = {m.engine for spec in config.methods for m in registry.make(spec)}
+    return {name: _version(name) for name in sorted(engines | set(LIBRARIES))}
+
+
+def commit() -> str:
+    """The commit of the checkout with '+' if files differ from it; 'unknown' outside a checkout."""
+    root = Path(__file__).parent
+    try:
+        head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=root, capture_output=True, text=True, check=True).stdout.strip()
+        dirty = subprocess.run(["git", "status", "--porcelain", "-uno"], cwd=root, capture_output=True, text=True, check=True).stdout.strip()
+        return head + ("+" if dirty else "")
+    except (OSError, subprocess.CalledProcessError):
+        return "unknown"
+
+
+def now() -> str:
+    return datetime.now(timezone.utc).isoformat(timespec="seconds")
+
+
+def _version(name: str) -> str | None:
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return None
+
+
+def _processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+        return next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.processor() or "unknown"

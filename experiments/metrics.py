@@ -1,0 +1,134 @@
+"""Counts and rates against certified labels, never against another method."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from scipy.stats import binomtest
+
+from baselines import registry
+
+from .store import Store
+from .timing import FLOOR, LOST, PROBE
+
+OUTCOMES = ("right", "miss", "false alarm", "conservative", "no label", "unsupported", "error", "timeout")
+
+
+def outcomes(store: Store) -> pd.DataFrame:
+    """One row per case and method: the observation, the truth, and what came of it.
+
+    outcome: "right"; "miss" (certified hit, answered clear); "false alarm" (certified clear, answered hit); "conservative" (a false
+    alarm at a certified clearance within the method's documented margin); "no label" (truth uncertain); or the status where it
+    is not ok. tunnelled: a miss of a sweep whose start and end are certified clear. error: signed time of impact error, as a share
+    of the step: beyond the certified bracket, positive late, negative early, 0 inside; NaN where there is none.
+    """
+    cases = store.read("cases.parquet").drop(columns=["certificate"])
+    table = store.read("observations.parquet").merge(cases, on="case", how="left", validate="many_to_one")
+    answered, hit = table.status == "ok", table.hit.fillna(False).astype(bool)
+    margin = table.method.map(margins(table.method.unique()))
+    clear, meets = table.label == "clear", table.label == "hit"
+    alarm = answered & clear & hit
+    table["outcome"] = np.select(
+        [~answered, table.label == "uncertain", meets & ~hit, alarm & (table.gap <= margin), alarm],
+        [table.status, "no label", "miss", "conservative", "false alarm"], "right")
+    sweep = table.question != "overlap"
+    table["can_tunnel"] = answered & sweep & meets & (table.start == "clear") & (table.end == "clear")
+    table["tunnelled"] = table.can_tunnel & ~hit
+    late, early = (table.time - table.t_hi).clip(lower=0), (table.time - table.t_lo).clip(upper=0)
+    timed = answered & sweep & meets & hit & table.time.notna() & (table.start == "clear")
+    table["error"] = (late + early).where(timed)
+    table["relative_gap"] = table.gap / table["size"]
+    return table
+
+
+def margins(labels) -> dict[str, float]:
+    """The documented margin (length) of each method label; 0 for one whose file is not there any more."""
+    known = registry.methods()
+    return {label: float(getattr(known.get(label.split()[0]), "margin", 0.0)) for label in labels}
+
+
+def wilson(count: int, total: int) -> tuple[float, float]:
+    """95 % Wilson score interval of a rate (scipy)."""
+    if not total:
+        return np.nan, np.nan
+    interval = binomtest(int(count), int(total)).proportion_ci(method="wilson")
+    return interval.low, interval.high
+
+
+def rates(table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
+    """Counts per group of `by`, in order of first appearance: asked, answered, hits and misses, clears and false alarms, tunnelling.
+
+    Rates are over the certified cases that the method answered; *_low, *_high are Wilson intervals.
+    """
+    labelled = table.outcome.isin(["right", "miss", "false alarm", "conservative"])
+    flags = pd.DataFrame({
+        "asked": 1, "answered": table.status == "ok", "unsupported": table.status == "unsupported",
+        "failed": table.status.isin(["error", "timeout"]), "uncertain": table.label == "uncertain",
+        "hits": labelled & (table.label == "hit"), "misses": table.outcome == "miss",
+        "clears": labelled & (table.label == "clear"), "false_alarms": table.outcome == "false alarm",
+        "conservative": table.outcome == "conservative", "can_tunnel": table.can_tunnel, "tunnelled": table.tunnelled,
+    }).astype(int)
+    counts = flags.groupby([table[name] for name in by], sort=False).sum().reset_index()
+    for count, total, name in (("misses", "hits", "miss"), ("false_alarms", "clears", "alarm"), ("tunnelled", "can_tunnel", "tunnel")):
+        counts[f"{name}_rate"] = counts[count] / counts[total].where(counts[total] > 0)
+        intervals = [wilson(c, t) for c, t in zip(counts[count], counts[total])]
+        counts[f"{name}_low"], counts[f"{name}_high"] = zip(*intervals) if intervals else ((), ())
+    return counts
+
+
+def times_of_impact(table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
+    """Errors of the time of impact per group, as shares of the step: how many, median of the absolute error, worst late and early."""
+    found = table[table.error.notna()]
+    grouped = found.groupby(by, sort=False).error
+    return pd.DataFrame({
+        "times": grouped.size(), "median": grouped.agg(lambda e: e.abs().median()), "p95": grouped.agg(lambda e: e.abs().quantile(0.95)),
+        "late": grouped.agg(lambda e: (e > 0).sum()), "worst_late": grouped.agg(lambda e: max(e.max(), 0.0)),
+        "early": grouped.agg(lambda e: (e < 0).sum()), "worst_early": grouped.agg(lambda e: min(e.min(), 0.0)),
+    }).reset_index()
+
+
+def costs(store: Store) -> pd.DataFrame:
+    """Nanoseconds per query, a row per bin and method: gross (median over cases of the median over rounds), floor, net = gross - floor.
+
+    The interval is a 95 % bootstrap over cases (scipy). build is the dearest `prepare` of the bin: caches are cold then.
+    """
+    rows = []
+    times = store.read("timings.parquet")
+    for (name, method), group in times[~times.method.isin([PROBE, LOST])].groupby(["bin", "method"], sort=False):
+        medians = group.rounds_ns.map(np.median)
+        floor, real = medians[group.case == FLOOR], medians[group.case != FLOOR].to_numpy()
+        if len(real):
+            least = float(floor.iloc[0]) if len(floor) else np.nan
+            low, high = _bootstrap(real)
+            rows.append({"bin": name, "question": group.question.iloc[0], "faces": group.faces.iloc[0], "method": method, "cases": len(real),
+                         "gross": np.median(real), "low": low, "high": high, "floor": least, "net": max(np.median(real) - least, 0.0),
+                         "build": float(group.build_ns.max())})
+    return pd.DataFrame(rows)
+
+
+def paired_ratios(store: Store, reference: str) -> pd.DataFrame:
+    """Time of each method over that of `reference`, case by case on the cases both answered: median ratio with a bootstrap interval."""
+    times = store.read("timings.parquet")
+    times = times[~times.method.isin([PROBE, LOST]) & (times.case != FLOOR)].assign(ns=lambda t: t.rounds_ns.map(np.median))
+    base = times[times.method == reference][["bin", "case", "ns"]]
+    rows = []
+    for (name, method), group in times.merge(base, on=["bin", "case"], suffixes=("", "_reference")).groupby(["bin", "method"], sort=False):
+        ratio = (group.ns / group.ns_reference).to_numpy()
+        low, high = _bootstrap(ratio)
+        rows.append({"bin": name, "method": method, "ratio": np.median(ratio), "ratio_low": low, "ratio_high": high, "pairs": len(ratio)})
+    return pd.DataFrame(rows, columns=["bin", "method", "ratio", "ratio_low", "ratio_high", "pairs"])
+
+
+def noise(store: Store) -> float:
+    """How far the 90th percentile of the probe lies above its median, worst bin: 0.05 is a quiet machine, 0.3 a disturbed one."""
+    probe = store.read("timings.parquet").query("method == @PROBE").rounds_ns
+    return max((float(np.percentile(r, 90) / np.median(r) - 1) for r in probe), default=float("nan"))
+
+
+def _bootstrap(values: np.ndarray) -> tuple[float, float]:
+    from scipy.stats import bootstrap
+
+    if len(values) < 2 or np.ptp(values) == 0:
+        return float(values[0]), float(values[0])
+    interval = bootstrap((values,), np.median, n_resamples=999, method="percentile", rng=np.random.default_rng(0)).confidence_interval
+    return float(interval.low), float(interval.high)

@@ -1,0 +1,57 @@
+"""The main job: scenarios -> certified cases -> observations -> times -> tables and figures, in one folder."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from pathlib import Path
+
+from baselines import registry
+
+from . import answering, figures, labelling, manifest, tables, timing
+from .config import ConfigError, RunConfig, load_files
+from .store import Store
+
+
+def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missing: bool = False) -> Store:
+    """Run `config` in `folder`, or finish what was begun there. Raises ConfigError, StoreError, or ValueError for bad names."""
+    load_files(config)
+    labelling.slots(config)
+    absent = missing(config)
+    if absent and not skip_missing:
+        raise ConfigError("An engine that this run asks for is not installed. " + " ".join(absent) + " Or leave its rows "
+                          "empty with --skip-missing.")
+    store = Store(folder)
+    store.begin(config)
+    if not store.has("manifest.json"):
+        note(store, started=manifest.now(), commit=manifest.commit(), versions=manifest.versions(config), before=manifest.machine())
+    workers = workers or os.cpu_count() or 1
+    labelling.make_cases(store, config, workers)
+    answering.ask(store, config, workers)
+    timing.measure(store, config)
+    note(store, finished=manifest.now(), after=manifest.machine(), workers=workers)
+    report(store)
+    shutil.rmtree(store.folder / "parts", ignore_errors=True)
+    return store
+
+
+def report(store: Store) -> list[tables.Table]:
+    """Write tables/ and figures/ from the rows of the run."""
+    made = list(tables.build(store))
+    tables.save(store, made)
+    if store.has("timings.parquet"):
+        figures.accuracy_speed(store)
+    return made
+
+
+def missing(config: RunConfig) -> list[str]:
+    """One sentence per engine that is asked for and not installed. Raises for an unknown method."""
+    classes = {type(m) for spec in config.methods for m in registry.make(spec)}
+    return sorted({reason for cls in classes if (reason := registry.available(cls))})
+
+
+def note(store: Store, **facts) -> None:
+    """Add facts to manifest.json."""
+    known = json.loads((store.folder / "manifest.json").read_text()) if store.has("manifest.json") else {}
+    store.write_text(json.dumps({**known, **facts}, indent=1) + "\n", "manifest.json")

@@ -1,0 +1,184 @@
+"""The tables of a run: accuracy first, then time. Each is a frame of plain numbers (CSV) and of text (terminal, Markdown)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Iterator
+
+import numpy as np
+import pandas as pd
+
+from . import metrics, scenarios
+from .store import Store
+
+BANDS = (1e-2, 1e-4, 1e-7)  # of |gap| / size, that tables are split by
+
+
+@dataclass(frozen=True)
+class Table:
+    """numbers: what CSV holds. text: what people read; same rows. accuracy: depends on the seed alone, never on the clock."""
+
+    name: str
+    title: str
+    caption: str
+    numbers: pd.DataFrame
+    text: pd.DataFrame
+    accuracy: bool = True
+
+
+def build(store: Store) -> Iterator[Table]:
+    """Every table of the run that has rows, in reading order."""
+    found = metrics.outcomes(store)
+    makers = [truth_table(store)]
+    for question in found.question.unique():
+        part = found[found.question == question]
+        makers += [accuracy_table(part, question), scenario_table(part, question)]
+        if question == "overlap":
+            makers.append(gap_table(part))
+        else:
+            makers += [speed_table(part, question), time_table(part, question)]
+    makers.append(trouble_table(found))
+    if store.has("timings.parquet"):
+        makers += list(cost_tables(store))
+    yield from (table for table in makers if len(table.text))
+
+
+def save(store: Store, tables: list[Table]) -> None:
+    for table in tables:
+        store.write_text(table.numbers.to_csv(index=False, float_format="%.9g", lineterminator="\n"), "tables", f"{table.name}.csv")
+        store.write_text(markdown(table), "tables", f"{table.name}.md")
+
+
+def markdown(table: Table) -> str:
+    align = ["left"] + ["right"] * (table.text.shape[1] - 1)
+    return f"**{table.title}** {table.caption}\n\n{table.text.to_markdown(index=False, colalign=align, disable_numparse=True)}\n"
+
+
+def truth_table(store: Store) -> Table:
+    cases = store.read("cases.parquet")
+    rows = []
+    for name, group in cases.groupby("scenario", sort=False):
+        count = group.label.value_counts()
+        rows.append({"scenario": name, "question": group.question.iloc[0], "cases": len(group), "hit": count.get("hit", 0), "clear": count.get("clear", 0),
+                     "uncertain": count.get("uncertain", 0), "drawn again": int(group.attempt.sum()), "exposes": _exposes(name)})
+    frame = pd.DataFrame(rows)
+    text = frame.assign(exposes=frame.exposes.str.slice(0, 44))
+    return Table("truth", "Cases and their certified labels.", "Uncertain cases are in no rate. 'Drawn again': draws thrown away because the step began "
+                 "in overlap.", frame, text)
+
+
+def accuracy_table(part: pd.DataFrame, question: str) -> Table:
+    counts = metrics.rates(part, ["method"])
+    text = pd.DataFrame({"method": counts.method, "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
+                         "misses": _fraction(counts, "misses", "hits"), "miss % [95 %]": _rate(counts, "miss")})
+    if question != "overlap":
+        text["tunnelled"] = _fraction(counts, "tunnelled", "can_tunnel")
+    text["false alarms"] = _fraction(counts, "false_alarms", "clears")
+    text["alarm % [95 %]"] = _rate(counts, "alarm")
+    text["in margin"] = counts.conservative.astype(str)
+    tunnelling = " Tunnelled: misses of sweeps whose start and end are both clear." if question != "overlap" else ""
+    return Table(f"accuracy-{question}", f"Accuracy, {question}.", "Over the certified cases that a method answered; Wilson intervals."
+                 f"{tunnelling} In margin: hits reported within the method's documented margin, not counted as false alarms.", counts, text)
+
+
+def scenario_table(part: pd.DataFrame, question: str) -> Table:
+    counts = metrics.rates(part, ["method", "scenario"])
+    counts["wrong"] = counts.misses + counts.false_alarms
+    counts["judged"] = counts.hits + counts.clears
+    return Table(f"scenarios-{question}", f"Wrong answers by scenario, {question}.", "Misses and false alarms of the certified cases answered; - where "
+                 "a method answered none.", counts[["method", "scenario", "misses", "false_alarms", "conservative", "hits", "clears"]],
+                 _pivot(counts, "scenario", lambda r: _of(r.wrong, r.judged)))
+
+
+def gap_table(part: pd.DataFrame) -> Table:
+    bands, order = gap_bands(part.relative_gap)
+    part = part.assign(band=bands).dropna(subset=["band"])
+    counts = metrics.rates(part, ["method", "band"])
+    counts["wrong"], counts["judged"] = counts.misses + counts.false_alarms, counts.hits + counts.clears
+    return Table("gap-overlap", "Wrong answers by signed gap over size, overlap.", "Left of 0 the bodies overlap (misses), right of it they are apart (false alarms).",
+                 counts[["method", "band", "misses", "false_alarms", "conservative", "hits", "clears"]],
+                 _pivot(counts, "band", lambda r: _of(r.wrong, r.judged), order))
+
+
+def gap_bands(relative_gap: pd.Series) -> tuple[pd.Series, list[str]]:
+    """The band of each signed relative gap, and the bands from deep to far."""
+    edges = [-np.inf, *(-b for b in BANDS), 0.0, *reversed(BANDS), np.inf]
+    names = [f"<-{BANDS[0]:.0e}", *(f"-{b:.0e}" for b in BANDS), *(f"+{b:.0e}" for b in reversed(BANDS)), f">{BANDS[0]:.0e}"]
+    names = [n.replace("e-0", "e-") for n in names]
+    return pd.cut(relative_gap, edges, labels=names).astype(object), names
+
+
+def speed_table(part: pd.DataFrame, question: str) -> Table:
+    """Tunnelling along the axis of the first scenario whose axis is a speed over a thickness."""
+    walls = [n for n in part.scenario.unique() if "thickness" in _axis(n)]
+    part = part[part.scenario.isin(walls)]
+    counts = metrics.rates(part, ["method", "level"]) if len(part) else pd.DataFrame(columns=["method", "level"])
+    levels = [f"{v:g}" for v in sorted(part.level.unique())]
+    counts["speed"] = [f"{v:g}" for v in counts.level]
+    return Table(f"tunnelling-{question}", f"Misses against speed over thickness, {question}.", f"Scenario {', '.join(walls)}; columns are thicknesses travelled in the step.",
+                 counts, _pivot(counts, "speed", lambda r: _of(r.misses, r.hits), levels) if len(counts) else counts)
+
+
+def time_table(part: pd.DataFrame, question: str) -> Table:
+    errors = metrics.times_of_impact(part, ["method"])
+    text = pd.DataFrame({"method": errors.method, "times": errors.times.astype(str)})
+    for column, title in (("median", "median |error|"), ("p95", "95 %"), ("worst_late", "latest"), ("worst_early", "earliest")):
+        text[title] = [f"{v:.1e}" if v else "0" for v in errors[column]]
+    text["late"], text["early"] = errors.late.astype(str), errors.early.astype(str)
+    return Table(f"time-of-impact-{question}", f"Time of impact, {question}.", "Error beyond the certified bracket, as a share of the step, where both say hit; late is positive.", errors, text)
+
+
+def trouble_table(found: pd.DataFrame) -> Table:
+    lost = found[found.status != "ok"].assign(detail=lambda t: t.detail.str.slice(0, 60))
+    counts = lost.groupby(["method", "status", "detail"], sort=False).size().rename("cases").reset_index()
+    return Table("unanswered", "What was not answered, and why.", "None of these is counted as a miss.", counts, counts.astype(str))
+
+
+def cost_tables(store: Store) -> Iterator[Table]:
+    costs = metrics.costs(store)
+    noise = metrics.noise(store)
+    state = f"Noise probe: 90th percentile {100 * noise:.0f} % above its median" + (": THIS RUN WAS DISTURBED." if noise > 0.25 else ".")
+    for question, part in costs.groupby("question", sort=False):
+        text = part.assign(cell=[_cost(r) for r in part.itertuples()]).pivot(index="method", columns="faces", values="cell").fillna("-")
+        text = text.reindex(index=part.method.unique(), columns=part.faces.unique()).reset_index()
+        yield Table(f"cost-{question}", f"Time per query from Python, {question}, microseconds: net (gross).", "Net is gross less the method's floor, its own call on two tetrahedra far "
+                    f"apart. Columns: faces of the larger body. Medians over cases of medians over rounds; poses differ from call to call. {state}", part, text, accuracy=False)
+
+
+def _cost(row) -> str:
+    return f"{row.net / 1e3:.3g} ({row.gross / 1e3:.3g})"
+
+
+def _pivot(counts: pd.DataFrame, column: str, cell, order=None) -> pd.DataFrame:
+    counts = counts.assign(cell=[cell(r) for r in counts.itertuples()])
+    wide = counts.pivot(index="method", columns=column, values="cell")
+    order = [c for c in (order or counts[column].unique()) if c in wide.columns]
+    wide = wide.reindex(index=counts.method.unique(), columns=order).fillna("-")
+    return wide[(wide != "-").any(axis=1)].reset_index()
+
+
+def _of(count: int, total: int) -> str:
+    return f"{count}/{total}" if total else "-"
+
+
+def _fraction(counts: pd.DataFrame, count: str, total: str) -> list[str]:
+    return [_of(c, t) for c, t in zip(counts[count], counts[total])]
+
+
+def _rate(counts: pd.DataFrame, name: str) -> list[str]:
+    rows = zip(counts[f"{name}_rate"], counts[f"{name}_low"], counts[f"{name}_high"])
+    return ["-" if np.isnan(rate) else f"{100 * rate:.1f} [{100 * low:.1f}, {100 * high:.1f}]" for rate, low, high in rows]
+
+
+def _share(count: int, total: int) -> str:
+    return "all" if count == total else f"{count}/{total}"
+
+
+def _axis(name: str) -> str:
+    known = scenarios.scenarios()
+    return known[name].axis if name in known else ""
+
+
+def _exposes(name: str) -> str:
+    known = scenarios.scenarios()
+    return known[name].exposes if name in known else ""

@@ -1,0 +1,148 @@
+"""How long methods take: interleaved rounds on one pinned core, each method's floor, the same cases for all.
+
+Protocol. Cases are put into bins by question and size. In a round, every method answers every case of a bin once, each call timed by
+itself, so that poses change from call to call (a repeated pose flatters by up to 3x). Methods take turns bin by bin within
+a round, in an order that rotates from round to round, so that a slow minute of the machine falls on all of them; taking turns
+call by call was left out because each call would then find the instruction cache full of another engine. The floor of a
+method is its own call on two tetrahedra far apart, timed in the same rounds: what the binding and an early way out cost.
+Only cases that a method answered (status ok) are timed; building (`prepare`) is timed once per case.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+from dataclasses import dataclass
+from functools import partial
+from time import perf_counter_ns
+
+import numpy as np
+import pandas as pd
+
+from baselines import registry
+from baselines.contract import Unsupported
+from ofg import Body, Motion, Pose, Query
+
+from .case import Case
+from .config import RunConfig, TimingChoice, load_files
+from .pool import Task, run
+from .progress import stage
+from .rows import cases_of
+from .store import Store
+
+SIZES = ((0, 24, "to 24"), (25, 150, "25-150"), (151, 700, "151-700"), (701, 10**9, "over 700"))
+COLUMNS = ["bin", "question", "faces", "method", "case", "build_ns", "rounds_ns"]
+PROBE = "(noise probe)"
+FLOOR = "(floor)"
+LOST = "(lost)"  # a bin whose process died: a row of this method, the reason in place of the case
+
+
+@dataclass(frozen=True)
+class Bin:
+    """Cases of one question and one range of faces (of the larger body). methods: label -> ids of the cases it answered."""
+
+    question: str
+    faces: str
+    cases: list[Case]
+    methods: dict[str, set[str]]
+
+    @property
+    def name(self) -> str:
+        return f"{self.question}, {self.faces} faces"
+
+
+def measure(store: Store, config: RunConfig) -> None:
+    """Write timings.parquet: a row per bin, method and case (and floor), with the nanoseconds of each round."""
+    if store.has("timings.parquet") or not config.timing.cases:
+        return
+    bins = choose(store, config)
+    names = [("parts", "timings", f"{i:03d}.parquet") for i in range(len(bins))]
+    tasks = [_task(store, bin_, config.timing, name) for bin_, name in zip(bins, names) if not store.has(*name)]
+    with stage("time methods", len(bins)) as advance:
+        advance(len(bins) - len(tasks))
+        # one worker: nothing else of ours runs while times are taken
+        run(tasks, 1, max(600.0, config.query_seconds), store.path("workers.log"), advance, partial(load_files, config))
+    parts = [store.read(*name) for name in names]
+    store.write(pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=COLUMNS), "timings.parquet")
+
+
+def choose(store: Store, config: RunConfig) -> list[Bin]:
+    """The first cases of each bin, spread evenly over its scenarios and levels; the same for every method."""
+    cases, observations = store.read("cases.parquet"), store.read("observations.parquet")
+    objects = {case.id: case for case, _ in cases_of(cases, store.read("bodies.parquet"))}
+    answered = observations[observations.status == "ok"].groupby("case").method.agg(set)
+    bins = []
+    for question, group in cases[cases.label != "uncertain"].groupby("question", sort=False):
+        for least, most, title in SIZES:
+            rows = group[group.faces.between(least, most)]
+            order = rows.sort_values(["index", "scenario", "level"]).case[: config.timing.cases]
+            chosen = [objects[i] for i in order]
+            if chosen:
+                labels = [m.label for spec in config.methods for m in registry.make(spec)]
+                methods = {label: {c.id for c in chosen if label in answered.get(c.id, ())} for label in labels}
+                bins.append(Bin(question, title, chosen, {k: v for k, v in methods.items() if v}))
+    return bins
+
+
+def _task(store: Store, bin_: Bin, timing: TimingChoice, name) -> Task:
+    def done(results):
+        store.write(pd.DataFrame(results[0], columns=COLUMNS), *name)
+
+    def lost(bin_, status, detail):
+        return [(bin_.name, bin_.question, bin_.faces, LOST, detail, 0, [])]
+
+    return Task(_open, timing, [bin_], done, lost)
+
+
+def _open(timing: TimingChoice):
+    os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+    return lambda bin_: time_bin(bin_, timing)
+
+
+def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
+    """Rows of COLUMNS for one bin."""
+    entries = []  # (method label, case id, build ns, callable)
+    for label, answered in bin_.methods.items():
+        entries.append(_prepare(label, bin_, answered))
+    entries.append([(PROBE, "", 0, _noise_probe())])
+    times = {(label, case): [] for group in entries for label, case, _, _ in group}
+    gc.collect()
+    gc.disable()
+    for r in range(timing.warmup + timing.rounds):
+        for group in entries[r % len(entries):] + entries[:r % len(entries)]:
+            for label, case, _, call in group:
+                start = perf_counter_ns()
+                call()
+                elapsed = perf_counter_ns() - start
+                if r >= timing.warmup:
+                    times[label, case].append(elapsed)
+    gc.enable()
+    return [(bin_.name, bin_.question, bin_.faces, label, case, build, times[label, case]) for group in entries for label, case, build, _ in group]
+
+
+def _prepare(label: str, bin_: Bin, answered: set[str]) -> list[tuple]:
+    (method,) = registry.make(label)
+    group = []
+    try:
+        group.append((label, FLOOR, 0, method.prepare(floor_query(bin_.question))))
+    except Unsupported:
+        pass
+    for case in bin_.cases:
+        if case.id in answered:
+            start = perf_counter_ns()
+            call = method.prepare(case.query)
+            group.append((label, case.id, perf_counter_ns() - start, call))
+    return group
+
+
+def floor_query(question: str) -> Query:
+    """Two unit tetrahedra a thousand apart, moving (if they do) by a tenth: the least a method can be asked."""
+    corner = Body.convex(np.vstack([np.zeros(3), np.eye(3)]), "tetrahedron")
+    motion = Motion() if question == "overlap" else Motion((0.1, 0, 0), angle=0.1 if question == "motion" else 0.0)
+    return Query(question, corner, corner, Pose(), Pose(position=(1000, 0, 0)), motion)
+
+
+def _noise_probe():
+    """The same arithmetic every time: how much its time varies is how much the machine was disturbed."""
+    block = np.arange(4096, dtype=np.float64)
+    return lambda: float(np.dot(block, block)) + sum(range(200))
