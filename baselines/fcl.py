@@ -3,9 +3,8 @@
 Convex methods see a union as a plain loop over all pairs of its pieces; mesh methods see the soup of the pieces' faces.
 Traps worked around here:
 - python-fcl's CollisionResult accumulates, so every call gets a new one; a Transform costs 5 us to make, so poses are prebuilt.
-- `CCDM_LINEAR` never initialises its reference point: what it answers depends on what was freed before (cubes, head-on, 40
-  sweeps: 12 misses with NAIVE, which samples the very poses that hit). Where malloc hands out zeroed memory it is the origin, as
-  documented, so these methods ask for that environment and refuse to run without it.
+- `CCDM_LINEAR` never initialises its reference point, so its answers depend on what was freed before (cubes, head-on, 40 sweeps:
+  12 misses with NAIVE, which samples the very poses that hit). See `_zero_motions`.
 - Conservative advancement of a Convex against a BVH segfaults; here both bodies are always given in the same form.
 Not offered, as they answer nothing usable: RAY_SHOOTING (returns -1), POLYNOMIAL (changes the model, time 0), SPLINE, and SCREW
 (another path than ours; pure translations 0.27 of the step early, head-on at 0.3).
@@ -13,8 +12,10 @@ Not offered, as they answer nothing usable: RAY_SHOOTING (returns -1), POLYNOMIA
 
 from __future__ import annotations
 
+import ctypes
 import math
-import os
+import sys
+from functools import cache
 from itertools import product
 from typing import Callable
 
@@ -25,8 +26,8 @@ from ofg import Body, Pose, Query
 from .contract import Method, MissingEngine, Unsupported, Verdict
 from .sampling import Discrete, Substeps
 
-#: With these, malloc hands out zeroed memory. Must be set before Python starts.
-ZEROED_HEAP = {"GLIBC_TUNABLES": "glibc.malloc.tcache_count=0:glibc.malloc.perturb=255"}
+#: Bytes of FCL 0.7's InterpMotion, the object of CCDM_LINEAR: of all sizes from 24 to 2024, only stale blocks of this one change answers.
+MOTION_BYTES = 504
 
 
 def _fcl():
@@ -152,9 +153,9 @@ class _Continuous(Method):
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
         path = self.path[query.question]
-        if path == "CCDM_LINEAR" and os.environ.get("GLIBC_TUNABLES") != ZEROED_HEAP["GLIBC_TUNABLES"]:
-            raise Unsupported("CCDM_LINEAR reads uninitialised memory; to make it repeatable start Python with "
-                              f"GLIBC_TUNABLES={ZEROED_HEAP['GLIBC_TUNABLES']}")
+        linear = path == "CCDM_LINEAR"
+        if linear and not _repeatable():
+            raise Unsupported("CCDM_LINEAR reads uninitialised memory, and this platform's malloc does not let us zero it beforehand")
         fcl = _fcl()
         request = fcl.ContinuousCollisionRequest(
             ccd_motion_type=getattr(fcl.CCDMotionType, path), gjk_solver_type=getattr(fcl.GJKSolverType, self.solver),
@@ -171,6 +172,8 @@ class _Continuous(Method):
                 first = math.inf
                 for a, b in pairs:
                     result = fcl.ContinuousCollisionResult()
+                    if linear:
+                        _zero_motions()
                     fcl.continuousCollide(a, stop, b, at_b, request, result)
                     if result.is_collide:
                         first = min(first, result.time_of_contact)
@@ -210,7 +213,6 @@ class _Advancement(_Continuous):
     configuration = "best effort"
     questions = frozenset({"translation", "motion"})
     parameters = {"toc_err": 1e-4}
-    environment = ZEROED_HEAP
     solver = "GST_INDEP"
     guarantee = "conservative advancement, time within toc_err"
 
@@ -232,7 +234,6 @@ class _Naive(_Continuous):
     configuration = "best effort"
     questions = frozenset({"translation", "motion"})
     parameters = {"iterations": 10}
-    environment = ZEROED_HEAP
     advancement = "CCDC_NAIVE"
     guarantee = "discrete test at evenly spaced samples of FCL's own interpolation; blind between them"
 
@@ -256,6 +257,47 @@ class FclNaiveConvex(_Convex, _Naive):
 
 class FclNaiveMesh(_Mesh, _Naive):
     name = "fcl-naive-mesh"
+
+
+def _zero_motions(fill: int = 0) -> None:
+    """Leave two zeroed blocks where malloc will look first for the two InterpMotions of the next call (1 us).
+
+    glibc hands out the block of a size that was freed last. Zeroed, the reference point is the body's origin, as FCL documents.
+    """
+    libc = _libc()
+    blocks = [libc.malloc(MOTION_BYTES), libc.malloc(MOTION_BYTES)]
+    for block in blocks:
+        libc.memset(block, fill, MOTION_BYTES)
+    for block in blocks:
+        libc.free(block)
+
+
+@cache
+def _libc():
+    libc = ctypes.PyDLL(None)
+    libc.malloc.restype, libc.malloc.argtypes = ctypes.c_void_p, [ctypes.c_size_t]
+    libc.memset.restype, libc.memset.argtypes = ctypes.c_void_p, [ctypes.c_void_p, ctypes.c_int, ctypes.c_size_t]
+    libc.free.restype, libc.free.argtypes = None, [ctypes.c_void_p]
+    return libc
+
+
+@cache
+def _repeatable() -> bool:
+    """Does `_zero_motions` rule the answer here? A turning cube, with stale memory of ours and with zeroed memory."""
+    if sys.platform != "linux":
+        return False
+    fcl = _fcl()
+    request = fcl.ContinuousCollisionRequest(num_max_iterations=10, ccd_motion_type=fcl.CCDMotionType.CCDM_LINEAR,
+                                             ccd_solver_type=fcl.CCDSolverType.CCDC_NAIVE)
+    stop, at_b = fcl.Transform(np.array([0.8, 0, 0, 0.6]), np.array([5.0, 0, 0])), fcl.Transform()
+    a, b = fcl.CollisionObject(fcl.Box(2, 2, 2), fcl.Transform(np.array([-5.0, 0, 0]))), fcl.CollisionObject(fcl.Box(2, 2, 2), at_b)
+    times = []
+    for fill in (0x7F, 0):
+        result = fcl.ContinuousCollisionResult()
+        _zero_motions(fill)
+        fcl.continuousCollide(a, stop, b, at_b, request, result)
+        times.append(result.time_of_contact)
+    return times[0] != times[1] and abs(times[1] - 1 / 3) < 1e-9
 
 
 def _transform(pose: Pose):
