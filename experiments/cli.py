@@ -85,13 +85,20 @@ def _run(config: configuration.RunConfig, folder: Path, workers: int | None, ski
 
 
 @app.command()
-def tables(run_: Run, only: Annotated[str, typer.Option(help="print only tables whose name contains this")] = "") -> None:
+def tables(
+    run_: Run,
+    only: Annotated[str, typer.Option(help="print only tables whose name contains this")] = "",
+    into: Annotated[Optional[Path], typer.Option(help="also put them into this Markdown page, between its markers `<!-- table NAME -->` and `<!-- end -->`")] = None,
+) -> None:
     """Build the tables of a finished run anew from its rows, and print them."""
+    from . import readme
     from . import tables as made
 
     store = _open(run_)
     made.save(store, list(made.build(store)))
     _print_tables(store, only)
+    if into:
+        into.write_text(readme.fill(into.read_text(), run_ / "tables"))
 
 
 @app.command()

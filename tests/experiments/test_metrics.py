@@ -1,0 +1,84 @@
+"""The counts of a table, worked out by hand on a dozen observations."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from experiments import metrics
+
+nan = np.nan
+
+
+def case(name, question="overlap", label="hit", start="uncertain", end="uncertain", gap=nan, t_lo=nan, t_hi=nan):
+    return {"case": name, "scenario": "s", "level": 1.0, "question": question, "label": label, "start": start, "end": end, "gap": gap,
+            "t_lo": t_lo, "t_hi": t_hi, "size": 2.0, "faces": 12, "certificate": "{}"}
+
+
+def seen(name, hit=None, status="ok", time=nan, method="probe"):
+    return {"case": name, "method": method, "status": status, "hit": hit, "time": time, "detail": ""}
+
+
+class Tables:
+    """A run of two tables in memory."""
+
+    def __init__(self, cases, observations):
+        self.frames = {"cases.parquet": pd.DataFrame(cases), "observations.parquet": pd.DataFrame(observations).astype({"hit": "boolean"})}
+
+    def read(self, name):
+        return self.frames[name]
+
+
+@pytest.fixture
+def margin(monkeypatch):
+    monkeypatch.setattr(metrics, "margins", lambda labels: {label: 0.01 for label in labels})
+
+
+def outcome(cases, observations):
+    return dict(zip([o["case"] for o in observations], metrics.outcomes(Tables(cases, observations)).outcome))
+
+
+def test_outcomes(margin):
+    cases = [case("a"), case("b"), case("c", label="clear", gap=0.5), case("d", label="clear", gap=0.005), case("e", label="uncertain"),
+             case("f"), case("g"), case("h", label="clear", gap=0.5)]
+    observations = [seen("a", True), seen("b", False), seen("c", True), seen("d", True), seen("e", True), seen("f", status="error"),
+                    seen("g", status="unsupported"), seen("h", False)]
+    assert outcome(cases, observations) == {"a": "right", "b": "miss", "c": "false alarm", "d": "conservative", "e": "no label", "f": "error",
+                                            "g": "unsupported", "h": "right"}
+
+
+def test_nothing_unanswered_is_a_miss(margin):
+    cases = [case(n) for n in "abc"]
+    table = metrics.outcomes(Tables(cases, [seen("a", status="error"), seen("b", status="timeout"), seen("c", status="unsupported")]))
+    (row,) = metrics.rates(table, ["method"]).to_dict("records")
+    assert (row["asked"], row["answered"], row["hits"], row["misses"], row["failed"], row["unsupported"]) == (3, 0, 0, 0, 2, 1)
+    assert np.isnan(row["miss_rate"])
+
+
+def test_tunnelling_needs_both_ends_clear(margin):
+    cases = [case("a", "translation", start="clear", end="clear"), case("b", "translation", start="clear", end="hit"),
+             case("c", "translation", start="clear", end="uncertain")]
+    table = metrics.outcomes(Tables(cases, [seen(n, False) for n in "abc"]))
+    assert list(table.tunnelled) == [True, False, False] and list(table.outcome) == ["miss"] * 3
+
+
+@pytest.mark.parametrize("time, error", [(0.45, -0.05), (0.5, 0.0), (0.55, 0.0), (0.6, 0.0), (0.7, 0.1), (nan, nan)])
+def test_time_errors_are_beyond_the_bracket(margin, time, error):
+    table = metrics.outcomes(Tables([case("a", "translation", start="clear", end="hit", t_lo=0.5, t_hi=0.6)], [seen("a", True, time=time)]))
+    assert table.error.iloc[0] == pytest.approx(error, nan_ok=True)
+
+
+def test_a_hit_at_the_start_has_no_time_error(margin):
+    table = metrics.outcomes(Tables([case("a", "translation", start="hit", end="hit", t_lo=0.0, t_hi=0.0)], [seen("a", True, time=0.3)]))
+    assert np.isnan(table.error.iloc[0])
+
+
+@given(st.integers(0, 50), st.integers(1, 50))
+def test_wilson_holds_the_rate_and_stays_in_0_1(count, more):
+    low, high = metrics.wilson(count, count + more)
+    assert 0 <= low <= count / (count + more) <= high <= 1
+
+
+def test_wilson_of_nothing_is_no_number():
+    assert np.isnan(metrics.wilson(0, 0)).all()
