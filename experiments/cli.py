@@ -78,8 +78,12 @@ def resume(run_: Run, workers: Workers = None, skip_missing: SkipMissing = False
 def _run(config: configuration.RunConfig, folder: Path, workers: int | None, skip_missing: bool) -> None:
     from . import runner
 
-    store = runner.run(config, folder, workers, skip_missing)
-    _print_tables(store, "")
+    made = runner.run(config, folder, workers, skip_missing)
+    for table in made:
+        if table.headline:
+            _print_table(table)
+    others = ", ".join(table.name for table in made if not table.headline)
+    console.print(f"{len(made)} tables were made; not printed here: {others}. Print them with: ofg-bench tables {folder} --only NAME\n")
     console.print(f"Tables (CSV, Markdown) are in {folder / 'tables'}, figures (SVG, PNG) in {folder / 'figures'}; every case with its "
                   f"certificate in {folder / 'cases.parquet'}, every answer in {folder / 'observations.parquet'}.")
 
@@ -95,8 +99,11 @@ def tables(
     from . import tables as made
 
     store = _open(run_)
-    made.save(store, list(made.build(store)))
-    _print_tables(store, only)
+    found = list(made.build(store))
+    made.save(store, found)
+    for table in found:
+        if only in table.name:
+            _print_table(table)
     if into:
         into.write_text(readme.fill(into.read_text(), run_ / "tables"))
 
@@ -124,12 +131,8 @@ def check(name: Annotated[str, typer.Argument(metavar="METHOD", help='a method, 
     raise typer.Exit(1 if failed else 0)
 
 
-def _print_tables(store: Store, only: str) -> None:
-    from . import tables as made
-
-    for table in made.build(store):
-        if only in table.name:
-            _print_grid(table.title, list(table.text.columns), table.text.itertuples(index=False), table.caption)
+def _print_table(table) -> None:
+    _print_grid(table.title, list(table.text.columns), table.text.itertuples(index=False), table.caption)
 
 
 def _print_grid(title: str, columns, rows, caption: str = "") -> None:
@@ -172,3 +175,7 @@ def main() -> None:
     except KeyboardInterrupt:
         Console(stderr=True).print("\nInterrupted. What is finished is kept; say the same command again to go on.")
         sys.exit(130)
+
+
+if __name__ == "__main__":
+    main()

@@ -30,9 +30,10 @@ class ScenarioChoice(_Strict):
 class TimingChoice(_Strict):
     """How time is measured; `cases` 0 leaves it out."""
 
-    cases: int = Field(default=24, ge=0, description="cases timed in each bin of question and size")
+    cases: int = Field(default=24, ge=0, description="cases timed in each bin of question, size and situation")
     rounds: int = Field(default=9, ge=3, description="how often each case is timed by each method")
     warmup: int = Field(default=2, ge=0, description="rounds thrown away first")
+    reference: str = Field(default="", description="method that ratios are taken to [the run's first]")
 
 
 class RunConfig(_Strict):

@@ -13,7 +13,7 @@ from baselines import registry
 
 from . import metrics
 from .store import Store
-from .timing import SIZES
+from .timing import SIZES, size_of
 
 # Okabe and Ito's palette, told apart by every common colour vision; markers repeat the distinction in grey print.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999933")
@@ -34,11 +34,10 @@ def accuracy_speed(store: Store) -> None:
 def joined(store: Store) -> pd.DataFrame:
     """A row per question, range of faces and method: net time (us), wrong rate with its interval, whether on the Pareto front."""
     found = metrics.outcomes(store)
-    edges, names = [s[0] for s in SIZES] + [np.inf], [s[2] for s in SIZES]
-    found = found.assign(faces=pd.cut(found.faces, edges, right=False, labels=names).astype(str))
+    found = found.assign(faces=size_of(found.faces))
     rates = metrics.rates(found, ["question", "faces", "method"])
     rates["wrong"], rates["judged"] = rates.misses + rates.false_alarms, rates.hits + rates.clears
-    points = metrics.costs(store).drop(columns=["low", "high"]).merge(rates[rates.judged > 0], on=["question", "faces", "method"])
+    points = metrics.costs(store, ("question", "faces")).drop(columns=["low", "high"]).merge(rates[rates.judged > 0], on=["question", "faces", "method"])
     points["rate"] = points.wrong / points.judged
     intervals = [metrics.wilson(w, n) for w, n in zip(points.wrong, points.judged)]
     points["low"], points["high"] = zip(*intervals) if intervals else ((), ())
@@ -57,7 +56,7 @@ def pareto(cost: pd.Series, loss: pd.Series) -> list:
 
 
 def draw(part: pd.DataFrame, question: str) -> plt.Figure:
-    panels = [name for _, _, name in SIZES if name in set(part.faces)]
+    panels = [name for _, name in SIZES if name in set(part.faces)]
     figure, axes = plt.subplots(1, len(panels), figsize=(3.3 * len(panels) + 1.2, 3.9), sharey=True, squeeze=False, layout="constrained")
     styles = _styles(part.method)
     for axis, faces in zip(axes[0], panels):

@@ -87,36 +87,46 @@ def times_of_impact(table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
     }).reset_index()
 
 
-def costs(store: Store) -> pd.DataFrame:
-    """Nanoseconds per query, a row per bin and method: gross (median over cases of the median over rounds), floor, net = gross - floor.
+def costs(store: Store, by=("question", "faces", "situation")) -> pd.DataFrame:
+    """Nanoseconds per query for each group of `by` and method: gross (median over cases of the median over rounds), floor, net = gross - floor.
 
-    The interval is a 95 % bootstrap over cases (scipy). build is the dearest `prepare` of the bin: caches are cold then.
+    low, high: 95 % bootstrap interval of gross over cases (scipy). build: the dearest `prepare` of the group, when caches are cold.
     """
+    times = _timed(store)
     rows = []
-    times = store.read("timings.parquet")
-    for (name, method), group in times[~times.method.isin([PROBE, LOST])].groupby(["bin", "method"], sort=False):
-        medians = group.rounds_ns.map(np.median)
-        floor, real = medians[group.case == FLOOR], medians[group.case != FLOOR].to_numpy()
+    for key, group in times.groupby([*by, "method"], sort=False):
+        floor, real = group.ns[group.case == FLOOR], group.ns[group.case != FLOOR].to_numpy()
         if len(real):
-            least = float(floor.iloc[0]) if len(floor) else np.nan
+            least = float(floor.median()) if len(floor) else np.nan
             low, high = _bootstrap(real)
-            rows.append({"bin": name, "question": group.question.iloc[0], "faces": group.faces.iloc[0], "method": method, "cases": len(real),
-                         "gross": np.median(real), "low": low, "high": high, "floor": least, "net": max(np.median(real) - least, 0.0),
-                         "build": float(group.build_ns.max())})
-    return pd.DataFrame(rows)
+            rows.append({**dict(zip([*by, "method"], key)), "cases": len(real), "gross": np.median(real), "low": low, "high": high,
+                         "floor": least, "net": max(np.median(real) - least, 0.0), "build": float(group.build_ns.max())})
+    return pd.DataFrame(rows, columns=[*by, "method", "cases", "gross", "low", "high", "floor", "net", "build"])
 
 
 def paired_ratios(store: Store, reference: str) -> pd.DataFrame:
-    """Time of each method over that of `reference`, case by case on the cases both answered: median ratio with a bootstrap interval."""
-    times = store.read("timings.parquet")
-    times = times[~times.method.isin([PROBE, LOST]) & (times.case != FLOOR)].assign(ns=lambda t: t.rounds_ns.map(np.median))
-    base = times[times.method == reference][["bin", "case", "ns"]]
+    """Net time of each method over that of `reference`, case by case on the cases both answered: median ratio, bootstrap interval.
+
+    Cases at which the reference's own net time is not above its floor have no ratio and are left out; `pairs` counts the rest.
+    """
+    bins = ["question", "faces", "situation"]
+    times = _timed(store)
+    floors = times[times.case == FLOOR].set_index([*bins, "method"]).ns.rename("floor")
+    times = times[times.case != FLOOR].join(floors, on=[*bins, "method"]).assign(net=lambda t: (t.ns - t.floor).clip(lower=0))
+    base = times[(times.method == reference) & (times.net > 0)][[*bins, "case", "net"]]
     rows = []
-    for (name, method), group in times.merge(base, on=["bin", "case"], suffixes=("", "_reference")).groupby(["bin", "method"], sort=False):
-        ratio = (group.ns / group.ns_reference).to_numpy()
+    for key, group in times.merge(base, on=[*bins, "case"], suffixes=("", "_reference")).groupby([*bins, "method"], sort=False):
+        ratio = (group.net / group.net_reference).to_numpy()
         low, high = _bootstrap(ratio)
-        rows.append({"bin": name, "method": method, "ratio": np.median(ratio), "ratio_low": low, "ratio_high": high, "pairs": len(ratio)})
-    return pd.DataFrame(rows, columns=["bin", "method", "ratio", "ratio_low", "ratio_high", "pairs"])
+        rows.append({**dict(zip([*bins, "method"], key)), "ratio": np.median(ratio), "low": low, "high": high, "pairs": len(ratio)})
+    return pd.DataFrame(rows, columns=[*bins, "method", "ratio", "low", "high", "pairs"])
+
+
+def _timed(store: Store) -> pd.DataFrame:
+    """timings.parquet without the probe and what was lost; ns: the median over rounds."""
+    times = store.read("timings.parquet")
+    times = times[~times.method.isin([PROBE, LOST])]
+    return times.assign(ns=[float(np.median(r)) for r in times.rounds_ns])
 
 
 def noise(store: Store) -> float:

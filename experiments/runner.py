@@ -14,8 +14,8 @@ from .config import ConfigError, RunConfig, load_files
 from .store import Store
 
 
-def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missing: bool = False) -> Store:
-    """Run `config` in `folder`, or finish what was begun there. Raises ConfigError, StoreError, or ValueError for bad names."""
+def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missing: bool = False) -> list[tables.Table]:
+    """Run `config` in `folder`, or finish what was begun there; returns its tables. Raises ConfigError, StoreError, or ValueError for bad names."""
     load_files(config)
     labelling.slots(config)
     absent = missing(config)
@@ -31,9 +31,9 @@ def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missin
     answering.ask(store, config, workers)
     timing.measure(store, config)
     note(store, finished=manifest.now(), after=manifest.machine(), workers=workers)
-    report(store)
+    made = report(store)
     shutil.rmtree(store.folder / "parts", ignore_errors=True)
-    return store
+    return made
 
 
 def report(store: Store) -> list[tables.Table]:

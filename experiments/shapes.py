@@ -6,7 +6,7 @@ the same one returns the same object, and engines may keep what they built for i
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -59,7 +59,7 @@ def hull_of(points, name: str) -> Body:
     return Body.convex(snap(points), name)
 
 
-@cache
+@lru_cache(512)  # some families ask for walls of any thickness
 def box(x: float = 1.0, y: float = 1.0, z: float = 1.0) -> Body:
     """Edge lengths; a cube by default. Keep them multiples of a power of two where a gap must come out exactly."""
     corners = np.array(np.meshgrid([-0.5, 0.5], [-0.5, 0.5], [-0.5, 0.5])).reshape(3, -1).T

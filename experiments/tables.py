@@ -8,22 +8,25 @@ from typing import Iterator
 import numpy as np
 import pandas as pd
 
+from baselines import registry
+
 from . import metrics, scenarios
 from .store import Store
+from .timing import SIZES
 
 BANDS = (1e-2, 1e-4, 1e-7)  # of |gap| / size, that tables are split by
 
 
 @dataclass(frozen=True)
 class Table:
-    """numbers: what CSV holds. text: what people read; same rows. accuracy: depends on the seed alone, never on the clock."""
+    """numbers: what CSV holds. text: what people read; same rows. headline: printed at the end of a run; the others on demand."""
 
     name: str
     title: str
     caption: str
     numbers: pd.DataFrame
     text: pd.DataFrame
-    accuracy: bool = True
+    headline: bool = False
 
 
 def build(store: Store) -> Iterator[Table]:
@@ -64,7 +67,7 @@ def truth_table(store: Store) -> Table:
     frame = pd.DataFrame(rows)
     text = frame.assign(exposes=frame.exposes.str.slice(0, 44))
     return Table("truth", "Cases and their certified labels.", "Uncertain cases are in no rate. 'Drawn again': draws thrown away because the step began "
-                 "in overlap.", frame, text)
+                 "in overlap.", frame, text, headline=True)
 
 
 def accuracy_table(part: pd.DataFrame, question: str) -> Table:
@@ -78,7 +81,7 @@ def accuracy_table(part: pd.DataFrame, question: str) -> Table:
     text["in margin"] = counts.conservative.astype(str)
     tunnelling = " Tunnelled: misses of sweeps whose start and end are both clear." if question != "overlap" else ""
     return Table(f"accuracy-{question}", f"Accuracy, {question}.", "Over the certified cases that a method answered; Wilson intervals."
-                 f"{tunnelling} In margin: hits reported within the method's documented margin, not counted as false alarms.", counts, text)
+                 f"{tunnelling} In margin: hits reported within the method's documented margin, not counted as false alarms.", counts, text, headline=True)
 
 
 def scenario_table(part: pd.DataFrame, question: str) -> Table:
@@ -135,18 +138,29 @@ def trouble_table(found: pd.DataFrame) -> Table:
 
 
 def cost_tables(store: Store) -> Iterator[Table]:
-    costs = metrics.costs(store)
     noise = metrics.noise(store)
     state = f"Noise probe: 90th percentile {100 * noise:.0f} % above its median" + (": THIS RUN WAS DISTURBED." if noise > 0.25 else ".")
-    for question, part in costs.groupby("question", sort=False):
-        text = part.assign(cell=[_cost(r) for r in part.itertuples()]).pivot(index="method", columns="faces", values="cell").fillna("-")
-        text = text.reindex(index=part.method.unique(), columns=part.faces.unique()).reset_index()
-        yield Table(f"cost-{question}", f"Time per query from Python, {question}, microseconds: net (gross).", "Net is gross less the method's floor, its own call on two tetrahedra far "
-                    f"apart. Columns: faces of the larger body. Medians over cases of medians over rounds; poses differ from call to call. {state}", part, text, accuracy=False)
+    note = (f"Microseconds per query from Python: net (gross). Net is gross less the method's floor, its own call on two tetrahedra far "
+            f"apart. Columns: faces of the larger body. Medians over cases of medians over rounds; poses differ from call to call. {state}")
+    for question, part in metrics.costs(store, ("question", "faces")).groupby("question", sort=False):
+        yield Table(f"cost-{question}", f"Time, {question}.", note, part, _by_faces(part, lambda r: _cost(r.net, r.gross)), headline=True)
+    for (question, situation), part in metrics.costs(store).groupby(["question", "situation"], sort=False):
+        yield Table(f"cost-{question}-{situation}", f"Time, {question}, {situation}.", note, part, _by_faces(part, lambda r: _cost(r.net, r.gross)))
+    config = store.config
+    reference = config.timing.reference or registry.make(config.methods[0])[0].label
+    for (question, situation), part in metrics.paired_ratios(store, reference).groupby(["question", "situation"], sort=False):
+        yield Table(f"ratio-{question}-{situation}", f"Net time over that of {reference}, {question}, {situation}.", "Median of the ratios case by case on the cases both "
+                    f"answered, 95 % bootstrap interval. Above 1: slower. {state}", part, _by_faces(part, lambda r: f"{r.ratio:.2g} [{r.low:.2g}, {r.high:.2g}]"))
 
 
-def _cost(row) -> str:
-    return f"{row.net / 1e3:.3g} ({row.gross / 1e3:.3g})"
+def _by_faces(part: pd.DataFrame, cell) -> pd.DataFrame:
+    wide = part.assign(cell=[cell(r) for r in part.itertuples()]).pivot(index="method", columns="faces", values="cell")
+    order = [name for _, name in SIZES if name in wide.columns]
+    return wide.reindex(index=part.method.unique(), columns=order).fillna("-").rename_axis(columns=None).reset_index()
+
+
+def _cost(net: float, gross: float) -> str:
+    return f"{net / 1e3:.3g} ({gross / 1e3:.3g})"
 
 
 def _pivot(counts: pd.DataFrame, column: str, cell, order=None) -> pd.DataFrame:
@@ -154,7 +168,7 @@ def _pivot(counts: pd.DataFrame, column: str, cell, order=None) -> pd.DataFrame:
     wide = counts.pivot(index="method", columns=column, values="cell")
     order = [c for c in (order or counts[column].unique()) if c in wide.columns]
     wide = wide.reindex(index=counts.method.unique(), columns=order).fillna("-")
-    return wide[(wide != "-").any(axis=1)].reset_index()
+    return wide[(wide != "-").any(axis=1)].rename_axis(columns=None).reset_index()
 
 
 def _of(count: int, total: int) -> str:

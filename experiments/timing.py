@@ -1,6 +1,6 @@
 """How long methods take: interleaved rounds on one pinned core, each method's floor, the same cases for all.
 
-Protocol. Cases are put into bins by question and size. In a round, every method answers every case of a bin once, each call timed by
+Protocol. Cases are put into bins by question, size and situation (how far apart or how deep; hit or clear). In a round, every method answers every case of a bin once, each call timed by
 itself, so that poses change from call to call (a repeated pose flatters by up to 3x). Methods take turns bin by bin within
 a round, in an order that rotates from round to round, so that a slow minute of the machine falls on all of them; taking turns
 call by call was left out because each call would then find the instruction cache full of another engine. The floor of a
@@ -30,8 +30,9 @@ from .progress import stage
 from .rows import cases_of
 from .store import Store
 
-SIZES = ((0, 24, "to 24"), (25, 150, "25-150"), (151, 700, "151-700"), (701, 10**9, "over 700"))
-COLUMNS = ["bin", "question", "faces", "method", "case", "build_ns", "rounds_ns"]
+SIZES = ((0, "to 24"), (25, "25-150"), (151, "151-700"), (701, "over 700"))  # least number of faces, name
+NEAR = 1e-2  # of gap over size: what lies closer to touching is timed apart from the rest
+COLUMNS = ["question", "faces", "situation", "method", "case", "build_ns", "rounds_ns"]
 PROBE = "(noise probe)"
 FLOOR = "(floor)"
 LOST = "(lost)"  # a bin whose process died: a row of this method, the reason in place of the case
@@ -39,16 +40,13 @@ LOST = "(lost)"  # a bin whose process died: a row of this method, the reason in
 
 @dataclass(frozen=True)
 class Bin:
-    """Cases of one question and one range of faces (of the larger body). methods: label -> ids of the cases it answered."""
+    """Cases of one question, one range of faces (of the larger body), one situation. methods: label -> ids of the cases it answered."""
 
     question: str
     faces: str
+    situation: str
     cases: list[Case]
     methods: dict[str, set[str]]
-
-    @property
-    def name(self) -> str:
-        return f"{self.question}, {self.faces} faces"
 
 
 def measure(store: Store, config: RunConfig) -> None:
@@ -71,17 +69,26 @@ def choose(store: Store, config: RunConfig) -> list[Bin]:
     cases, observations = store.read("cases.parquet"), store.read("observations.parquet")
     objects = {case.id: case for case, _ in cases_of(cases, store.read("bodies.parquet"))}
     answered = observations[observations.status == "ok"].groupby("case").method.agg(set)
+    labels = [m.label for spec in config.methods for m in registry.make(spec)]
+    cases = cases[cases.label != "uncertain"].assign(faces=lambda c: size_of(c.faces), situation=situation_of)
     bins = []
-    for question, group in cases[cases.label != "uncertain"].groupby("question", sort=False):
-        for least, most, title in SIZES:
-            rows = group[group.faces.between(least, most)]
-            order = rows.sort_values(["index", "scenario", "level"]).case[: config.timing.cases]
-            chosen = [objects[i] for i in order]
-            if chosen:
-                labels = [m.label for spec in config.methods for m in registry.make(spec)]
-                methods = {label: {c.id for c in chosen if label in answered.get(c.id, ())} for label in labels}
-                bins.append(Bin(question, title, chosen, {k: v for k, v in methods.items() if v}))
+    for (question, faces, situation), rows in cases.groupby(["question", "faces", "situation"], sort=False, observed=True):
+        chosen = [objects[i] for i in rows.sort_values(["index", "scenario", "level"]).case[: config.timing.cases]]
+        methods = {label: {c.id for c in chosen if label in answered.get(c.id, ())} for label in labels}
+        bins.append(Bin(question, faces, situation, chosen, {k: v for k, v in methods.items() if v}))
     return bins
+
+
+def size_of(faces: pd.Series) -> pd.Series:
+    """The range of faces that each number falls into."""
+    return pd.cut(faces, [least for least, _ in SIZES] + [np.inf], right=False, labels=[title for _, title in SIZES]).astype(str)
+
+
+def situation_of(cases: pd.DataFrame) -> pd.Series:
+    """Overlap: "deep", "near" or "apart", by the signed gap over the size. Sweeps: their label."""
+    relative = cases.gap / cases["size"]
+    overlap = np.select([relative < -NEAR, relative > NEAR], ["deep", "apart"], "near")
+    return pd.Series(np.where(cases.question == "overlap", overlap, cases.label), cases.index)
 
 
 def _task(store: Store, bin_: Bin, timing: TimingChoice, name) -> Task:
@@ -89,7 +96,7 @@ def _task(store: Store, bin_: Bin, timing: TimingChoice, name) -> Task:
         store.write(pd.DataFrame(results[0], columns=COLUMNS), *name)
 
     def lost(bin_, status, detail):
-        return [(bin_.name, bin_.question, bin_.faces, LOST, detail, 0, [])]
+        return [(bin_.question, bin_.faces, bin_.situation, LOST, detail, 0, [])]
 
     return Task(_open, timing, [bin_], done, lost)
 
@@ -117,7 +124,7 @@ def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
                 if r >= timing.warmup:
                     times[label, case].append(elapsed)
     gc.enable()
-    return [(bin_.name, bin_.question, bin_.faces, label, case, build, times[label, case]) for group in entries for label, case, build, _ in group]
+    return [(bin_.question, bin_.faces, bin_.situation, label, case, build, times[label, case]) for group in entries for label, case, build, _ in group]
 
 
 def _prepare(label: str, bin_: Bin, answered: set[str]) -> list[tuple]:
