@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import trimesh
+from scipy.spatial import ConvexHull, QhullError
 
 
 class BodyError(ValueError):
@@ -37,11 +38,13 @@ class Body:
         """The convex hull of (n, 3) points. Points inside the hull are dropped. BodyError if flat or not finite."""
         v = _points(vertices, name)
         try:
-            hull = trimesh.convex.convex_hull(v)
-        except Exception as error:
+            hull = ConvexHull(v, qhull_options="QbB Qt Pp")
+        except QhullError as error:
             raise BodyError(f"Body '{name}': its {len(v)} vertices have no volume ({_first_line(error)}). A convex body "
                             "needs at least four vertices that are not all in one plane.") from error
-        return cls._of("convex", hull.vertices, hull.faces, (), name)
+        used, faces = np.unique(_wound_alike(hull.simplices, hull.neighbors), return_inverse=True)
+        v, faces = v[used], faces.reshape(-1, 3)
+        return cls._of("convex", v, faces if _volume(v, faces) > 0 else faces[:, ::-1], (), name)
 
     @classmethod
     def mesh(cls, vertices, faces, name: str = "body") -> "Body":
@@ -158,12 +161,38 @@ def _require_closed(v: np.ndarray, f: np.ndarray, name: str) -> None:
     if len(np.unique(key)) != len(key):
         raise BodyError(f"Body '{name}': the mesh is not a manifold; an edge belongs to more than two faces. Split it there, "
                         "decompose it into convex pieces (Body.union), or take its hull with Body.convex.")
-    a, b, c = (v[f[:, i]] - v.mean(axis=0) for i in range(3))
-    volume = float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
+    volume = _volume(v, f)
     if not volume > 0:
         fault = "inside-out" if volume < 0 else "without volume"
         raise BodyError(f"Body '{name}': the mesh is {fault} (signed volume {volume:.3g}). Faces must run counter-clockwise "
                         "seen from outside: reverse them with faces[:, ::-1].")
+
+
+def _volume(v: np.ndarray, f: np.ndarray) -> float:
+    a, b, c = (v[f[:, i]] - v.mean(axis=0) for i in range(3))
+    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
+
+
+def _wound_alike(triangles: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
+    """Qhull's triangles, turned over where needed so that neighbours run through their common edge in opposite directions.
+
+    By neighbourhood and not by normals, and without trimesh, which merges vertices closer than 1e-8 whatever the scale:
+    bodies of 1e-6, walls of 1e-9 and triangles without area come out whole.
+    """
+    wound = triangles.tolist()
+    seen, front = {0}, [0]
+    while front:
+        i = front.pop()
+        a, b, c = wound[i]
+        edges = {(a, b), (b, c), (c, a)}
+        for j in neighbours[i].tolist():
+            if j not in seen:
+                a, b, c = wound[j]
+                if edges & {(a, b), (b, c), (c, a)}:
+                    wound[j] = [c, b, a]
+                seen.add(j)
+                front.append(j)
+    return np.array(wound)
 
 
 def _first_line(error: Exception) -> str:

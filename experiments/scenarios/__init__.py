@@ -40,13 +40,13 @@ def get(name: str) -> Scenario:
 
 
 def load_file(path) -> list[Scenario]:
-    """The scenarios of a Python file outside this folder, which defines SCENARIO, or SCENARIOS (several).
+    """The scenarios of a Python file outside this folder, which defines SCENARIO, or SCENARIOS (several); they join `scenarios()`.
 
-    FileNotFoundError or ValueError where the file is missing or defines neither.
+    ValueError where the file is missing, defines neither, or takes the name of a family of this folder.
     """
     path = Path(path)
     if not path.is_file():
-        raise FileNotFoundError(f"Scenario file {path} does not exist; give the path of a Python file that defines SCENARIO.")
+        raise ValueError(f"Scenario file {path} does not exist; give the path of a Python file that defines SCENARIO.")
     spec = importlib.util.spec_from_file_location(f"scenario_file_{path.stem}", path)
     if spec is None:
         raise ValueError(f"Scenario file {path} is not a Python file; its name must end in .py.")
@@ -56,4 +56,8 @@ def load_file(path) -> list[Scenario]:
     if not found or not all(isinstance(s, Scenario) for s in found):
         raise ValueError(f"Scenario file {path} defines no scenario; it must set SCENARIO = Scenario(...), or SCENARIOS to a list of "
                          "them (from experiments.scenario import Scenario, Draft).")
+    taken = [s.name for s in found if s.name in {m.name for m in pkgutil.iter_modules(__path__)}]
+    if taken:
+        raise ValueError(f"Scenario file {path}: the name '{taken[0]}' is taken by a family of this project; choose another.")
+    scenarios().update({s.name: s for s in found})
     return found

@@ -11,9 +11,10 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
+import trimesh
 
 from experiments.scenario import Draft, snap
-from experiments.shapes import hull_of
+from experiments.shapes import any_convex, box, hull_of, rod, scaled
 from ofg import Body, Motion, Pose
 
 IDENTITY = np.array([1, 0, 0, 0])
@@ -21,6 +22,8 @@ UPSIDE_DOWN = np.array([0, 1, 0, 0])
 FEATURE_PAIRS = ("vertex-vertex", "vertex-edge", "vertex-face", "edge-edge crossing", "edge-edge parallel", "edge-face",
                  "face-face")
 ALIGNED_SHARE = 0.25  # of the cases keep the axes of the world: symmetric input is where engines fail
+
+GROUND = 1e-6  # of the size: vertices nearer than this to a face's plane belong to the face
 
 
 def multiply(p, q) -> np.ndarray:
@@ -111,33 +114,33 @@ def rest_on(body: Body, feature: str, variant: int) -> Body:
     Standing is exact: the feature's vertices have the coordinates 0 that it takes, and all other vertices have z > 0.
     """
     rng = np.random.default_rng([variant, len(body.vertices)])
-    slack = 1e-6 * body.size
+    unit = 2.0 ** np.round(np.log2(body.size))  # trimesh takes the triangles of a body of 1e-6 for degenerate
+    mesh = trimesh.Trimesh(body.vertices / unit, body.faces, process=False)
     for _ in range(100):
-        normal, along, contact, members = _feature(body, feature, rng)
+        normal, along, contact, members = _feature(mesh, feature, rng)
         x = along - normal * (along @ normal)
         x /= np.linalg.norm(x)
         axes = np.array([x, np.cross(-normal, x), -normal])
-        v = snap((body.vertices - contact) @ axes.T)
+        v = snap((mesh.vertices - contact) @ axes.T) * unit
         v[members, 2] = 0.0
         if feature != "face":
             v[members, 1] = 0.0
         if feature == "vertex":
             v[members, 0] = 0.0
-        if np.delete(v, members, axis=0)[:, 2].min() > slack:
+        if np.delete(v, members, axis=0)[:, 2].min() > GROUND * unit:
             return hull_of(v, f"{body.name} on {feature} {variant}")
     raise ValueError(f"Body '{body.name}' found no {feature} that it can stand on clear of its other vertices in 100 tries; "
                      "give the scenario a body with blunter features.")
 
 
-def _feature(body: Body, feature: str, rng):
+def _feature(mesh: trimesh.Trimesh, feature: str, rng):
     """Outward normal, a direction across it, the contact point and the vertices of a feature drawn from the body's own."""
-    mesh = body.to_trimesh()
     if feature == "face":
         face = rng.choice(len(mesh.faces), p=mesh.area_faces / mesh.area_faces.sum())
         normal = mesh.face_normals[face]
-        heights = (body.vertices - mesh.vertices[mesh.faces[face][0]]) @ normal
+        heights = (mesh.vertices - mesh.vertices[mesh.faces[face][0]]) @ normal
         weights = rng.dirichlet(np.ones(3) * 3)
-        return normal, rng.normal(size=3), weights @ mesh.vertices[mesh.faces[face]], np.flatnonzero(heights > -1e-6 * body.size)
+        return normal, rng.normal(size=3), weights @ mesh.vertices[mesh.faces[face]], np.flatnonzero(heights > -GROUND)
     if feature == "edge":
         sharp = np.flatnonzero(mesh.face_adjacency_angles > 0.02)
         pick = sharp[rng.integers(len(sharp))]
@@ -182,3 +185,32 @@ def in_world(rng, draft: Draft, offset: float = 1.0) -> Draft:
 
     motion = replace(draft.motion, displacement=r @ draft.motion.displacement, axis=r @ draft.motion.axis)
     return Draft(draft.a, draft.b, moved(draft.pose_a), moved(draft.pose_b), motion, {**(draft.tags or {}), "aligned": aligned})
+
+
+def flight_through(rng, level: float) -> Draft:
+    """A body flies along -z through a wall, or past its rim, from clear to clear; level = travel / thickness of the wall."""
+    half_width = 2.0
+    a = any_convex(rng)
+    run_up = a.radius + rng.uniform(0.2, 1.0)
+    travel = 2 * run_up * level / (level - 1)
+    wall = box(2 * half_width, 2 * half_width, float(np.float32(travel / level)))
+    through = rng.random() < 0.7
+    side = rng.uniform(-1, 1, 2) if through else np.array([half_width + a.radius * rng.uniform(1.05, 1.5), 0.0])
+    slant = rng.uniform(-0.5, 0.5, 2) * [through, 1]  # a body beside the rim stays beside it
+    start = Pose(any_rotation(rng), [*(side - slant / 2), travel / 2])
+    return Draft(a, wall, start, Pose(), Motion([*slant, -travel]), {"place": "through" if through else "past the rim"})
+
+
+def spin_beside(rng, turn: float, angle: float, width: float) -> Draft:
+    """A rod turns about z and its own centre by `turn`; a body of radius `width` stands at the angle `angle`, near enough to be
+    hit by the rod's end or just too far."""
+    hit = rng.random() < 0.65
+    reach = rng.uniform(0.6, 0.9) if hit else rng.uniform(1.01, 1.2)
+    body = any_convex(rng)
+    body = scaled(body, float(np.float32(width / body.radius)))
+    rotation = any_rotation(rng)
+    out = np.array([np.cos(angle), np.sin(angle), 0.0])
+    nearest = (Pose(rotation).apply(body.vertices) @ out).min()
+    pose = Pose(rotation, (reach - nearest) * out)
+    place = "in the way" if hit else "out of reach"
+    return Draft(rod(float(rng.choice([8, 16, 32]))), body, Pose(), pose, Motion([0, 0, 0], [0, 0, 1], turn), {"place": place})

@@ -1,27 +1,12 @@
 """A rod turns about its own centre and its end runs into a body at its side, or passes it; both ends of the step are clear."""
 
-import numpy as np
-
 from experiments.scenario import Draft, Scenario
-from experiments.shapes import any_convex, rod, scaled
-from ofg import Motion, Pose
 
-from ._place import any_rotation, in_world
+from ._place import in_world, spin_beside
 
 
 def generate(rng, level) -> Draft:
-    spinner = rod(float(rng.choice([8, 16, 32])))
-    place = ("in the way", "out of reach")[int(rng.random() < 0.35)]
-    reach = rng.uniform(0.6, 0.9) if place == "in the way" else rng.uniform(1.01, 1.2)
-    body = any_convex(rng)
-    body = scaled(body, float(np.float32(min(0.4, 0.15 * level) / body.radius)))
-    rotation = any_rotation(rng)
-    angle = rng.uniform(0.35, 0.65) * level
-    out = np.array([np.cos(angle), np.sin(angle), 0.0])
-    inner = (Pose(rotation).apply(body.vertices) @ out).min()  # the body's point nearest the rod's centre, at `reach`
-    motion = Motion([0, 0, 0], [0, 0, 1], level)
-    draft = Draft(spinner, body, Pose(), Pose(rotation, (reach - inner) * out), motion, {"place": place})
-    return in_world(rng, draft)
+    return in_world(rng, spin_beside(rng, level, rng.uniform(0.35, 0.65) * level, min(0.4, 0.15 * level)))
 
 
 SCENARIO = Scenario(

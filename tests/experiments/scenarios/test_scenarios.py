@@ -76,5 +76,5 @@ def test_load_file_refuses_a_file_without_one(tmp_path, text):
     path.write_text(text)
     with pytest.raises(ValueError, match="defines no scenario"):
         load_file(path)
-    with pytest.raises(FileNotFoundError, match="does not exist"):
+    with pytest.raises(ValueError, match="does not exist"):
         load_file(tmp_path / "missing.py")

@@ -1,0 +1,29 @@
+"""Two bodies at the same place far from the world's origin, with a gap that is part of their shape."""
+
+import numpy as np
+
+from experiments.scenario import Draft, Scenario
+from experiments.shapes import any_convex, hull_of
+
+from ._place import FEATURE_PAIRS, any_direction, seat
+
+
+def generate(rng, level) -> Draft:
+    s = seat(rng, any_convex(rng), any_convex(rng), FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
+    gap = float(rng.choice([1e-2, 1e-4]) * rng.choice([-1, 1]))
+    s.tags["gap"] = gap
+    # At 1e8 neighbouring float32 positions are 8 apart: both bodies get the same position, and A's vertices the gap.
+    lifted = hull_of(s.a.vertices + np.array([0, 0, gap * s.size]), s.a.name)
+    where = level * any_direction(rng)
+    draft = s.draft(where, where)
+    return Draft(lifted, draft.b, draft.pose_a, draft.pose_b, tags=draft.tags)
+
+
+SCENARIO = Scenario(
+    name="far_from_origin",
+    question="overlap",
+    exposes="cancellation, and engines that compute in float32 or in world coordinates",
+    axis="distance from the origin",
+    levels=(1e3, 1e4, 1e5, 1e6, 1e7, 1e8),
+    generate=generate,
+)

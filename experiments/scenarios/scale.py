@@ -1,0 +1,23 @@
+"""The same contact in every unit of length: both bodies, and the gap, times one factor."""
+
+from experiments.scenario import Draft, Scenario
+from experiments.shapes import any_convex, scaled
+
+from ._place import FEATURE_PAIRS, seat
+
+
+def generate(rng, level) -> Draft:
+    a, b = scaled(any_convex(rng), level), scaled(any_convex(rng), level)
+    s = seat(rng, a, b, FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
+    s.tags["gap"] = float(rng.choice([1e-2, 1e-4]) * rng.choice([-1, 1]))
+    return s.draft(s.tags["gap"] * s.size * s.normal, [0, 0, 0])
+
+
+SCENARIO = Scenario(
+    name="scale",
+    question="overlap",
+    exposes="tolerances and margins in units of length: micrometres and kilometres are the same question",
+    axis="factor on all lengths",
+    levels=(1.0, 1e-2, 1e2, 1e-3, 1e3, 1e-6, 1e6),
+    generate=generate,
+)

@@ -1,0 +1,33 @@
+"""The end of a turning rod passes a flat face on a circle: above the face, or into it, by a fraction of the chord's error."""
+
+import numpy as np
+
+from experiments.scenario import Draft, Scenario
+from experiments.shapes import box, rod
+from ofg import Motion, Pose
+
+from ._place import in_world
+
+
+def generate(rng, level) -> Draft:
+    spinner = rod(float(rng.choice([8, 16, 32])))
+    turn = rng.uniform(0.6, 1.5)
+    radius = np.linalg.norm(spinner.vertices[:, :2], axis=1).max()
+    tip = spinner.vertices[np.argmax(np.linalg.norm(spinner.vertices[:, :2], axis=1))]
+    face = radius * (1 + level * turn**2 / 8)
+    # The tip's circle touches the plane of the face in the middle of the turn.
+    angle = np.arctan2(tip[1], tip[0]) + turn / 2
+    block = box(0.25, float(np.float32(0.5 * turn)), 0.5)
+    pose = Pose([np.cos(angle / 2), 0, 0, np.sin(angle / 2)], (face + 0.125) * np.array([np.cos(angle), np.sin(angle), 0]))
+    return in_world(rng, Draft(spinner, block, Pose(), pose, Motion([0, 0, 0], [0, 0, 1], turn), {"turn": round(turn, 3)}))
+
+
+SCENARIO = Scenario(
+    name="spin_clear",
+    question="motion",
+    exposes="the chord's error: a path of K straight pieces is off by r theta^2 / 8 K^2, and misses or invents hits below 1 / K^2",
+    axis="signed clearance / (r theta^2 / 8)",
+    levels=tuple(sign * 0.25**k for k in range(7) for sign in (1, -1)),
+    generate=generate,
+    redraw_if=("start-overlap",),
+)

@@ -1,0 +1,25 @@
+"""A tiny body at a feature of a huge one, a tenth of the tiny one's size away from it or inside it."""
+
+from experiments.scenario import Draft, Scenario
+from experiments.shapes import any_convex, scaled
+
+from ._place import FEATURE_PAIRS, seat
+
+
+def generate(rng, level) -> Draft:
+    a, b = any_convex(rng), any_convex(rng)
+    unit = ("tiny", "huge")[rng.integers(2)]  # which of the two has the size 1
+    a, b = (a, scaled(b, level)) if unit == "tiny" else (scaled(a, 1 / level), b)
+    s = seat(rng, a, b, FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
+    s.tags["unit"] = unit
+    return s.draft(rng.choice([-0.1, 0.1]) * s.a.size * s.normal, [0, 0, 0])
+
+
+SCENARIO = Scenario(
+    name="tiny_huge",
+    question="overlap",
+    exposes="epsilons that are absolute, or relative to the larger body",
+    axis="size of the huge body / size of the tiny one",
+    levels=(1e2, 1e3, 1e4, 1e5, 1e6),
+    generate=generate,
+)
