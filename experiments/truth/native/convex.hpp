@@ -146,31 +146,39 @@ template <class T> T lasts(Placed<T>& P, double s, double end, vec<T> n, T margi
     return hW;
 }
 
-// A point strictly inside both, found on shrunk copies so that it keeps clear of both surfaces.
+// A point strictly inside both, found on shrunk copies so that it keeps clear of both surfaces. Each copy shrinks towards an
+// interior point drawn at random: symmetric bodies would else put the point on faces of every tetrahedron tried.
 template <class T> std::optional<Inside> inside(const Points<T>& A, const Points<T>& B, double reach) {
-    auto mean = [](const Points<T>& p) {
+    unsigned long long seed = 1;
+    auto draw = [&] { return 0.25 + double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 4294967296.0; };
+    auto centre = [&](const Points<T>& p) {
         vec<T> m;
-        for (auto& v : p) m = m + v;
-        return m * (T(1) / T(double(p.size())));
+        double total = 0;
+        for (auto& v : p) {
+            double w = draw();
+            m = m + v * T(w), total += w;
+        }
+        return m * (T(1) / T(total));
     };
-    auto ca = mean(A), cb = mean(B);
     Points<T> a(A), b(B), one(1);
-    double eps = 0.5;
     const double least = std::is_same_v<T, double> ? 1e-9 : 1e-25;
-    for (; eps > least; eps *= eps > 0.06 ? 0.25 : 0.03) {
-        for (size_t i = 0; i < A.size(); ++i) a[i] = A[i] + (ca - A[i]) * T(eps);
-        for (size_t i = 0; i < B.size(); ++i) b[i] = B[i] + (cb - B[i]) * T(eps);
-        auto g = gjk<T>(a, b, cb - ca, reach, 1e-3);
-        if (g.status != Status::Meet) continue;
-        one[0] = {};
-        for (int i = 0; i < 4; ++i) one[0] = one[0] + b[g.s[i].b] * g.w[i];
-        auto ga = gjk<T>(one, A, ca - one[0], reach, 1e-3), gb = gjk<T>(one, B, cb - one[0], reach, 1e-3);
-        if (ga.status != Status::Meet || gb.status != Status::Meet) continue;
-        Inside w;
-        w.point = wide(one[0]);
-        for (int i = 0; i < 4; ++i) w.a[i] = ga.s[i].b, w.b[i] = gb.s[i].b;
-        return w;
-    }
+    for (double eps = 0.5; eps > least; eps *= eps > 0.06 ? 0.25 : 0.03)
+        for (int attempt = 0; attempt < 2; ++attempt) {
+            auto ca = centre(A), cb = centre(B);
+            for (size_t i = 0; i < A.size(); ++i) a[i] = A[i] + (ca - A[i]) * T(eps);
+            for (size_t i = 0; i < B.size(); ++i) b[i] = B[i] + (cb - B[i]) * T(eps);
+            auto g = gjk<T>(a, b, cb - ca, reach, 1e-3);
+            if (g.status == Status::Apart) break;
+            if (g.status != Status::Meet) continue;
+            one[0] = {};
+            for (int i = 0; i < 4; ++i) one[0] = one[0] + b[g.s[i].b] * g.w[i];
+            auto ga = gjk<T>(one, A, ca - one[0], reach, 1e-3), gb = gjk<T>(one, B, cb - one[0], reach, 1e-3);
+            if (ga.status != Status::Meet || gb.status != Status::Meet) continue;
+            Inside w;
+            w.point = wide(one[0]);
+            for (int i = 0; i < 4; ++i) w.a[i] = ga.s[i].b, w.b[i] = gb.s[i].b;
+            return w;
+        }
     return std::nullopt;
 }
 

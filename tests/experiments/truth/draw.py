@@ -1,0 +1,61 @@
+"""Random cases and queries for the tests of the truth."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ofg import Body, Motion, Pose, Query
+
+
+def single(x):
+    return np.float32(x).astype(np.float64)
+
+
+def hull(rng, n=12, scale=1.0) -> Body:
+    return Body.convex(single(rng.normal(size=(n, 3)) * scale), "hull")
+
+
+def convex_query(rng, question: str, a: Body | None = None, b: Body | None = None) -> Query:
+    a, b = a or hull(rng, int(rng.integers(4, 30))), b or hull(rng, int(rng.integers(4, 30)), rng.choice([0.1, 1.0]))
+    away = rng.normal(size=3)
+    away /= np.linalg.norm(away)
+    reach = a.radius + b.radius
+    pose_b = Pose(single(rng.normal(size=4)), single(away * rng.uniform(0.2, 1.3) * reach))
+    pose_a = Pose(single(rng.normal(size=4)), single(rng.normal(size=3) * 0.1))
+    motion = Motion()
+    if question != "overlap":
+        angle = float(np.float32(rng.uniform(-6, 6))) if question == "motion" else 0.0
+        motion = Motion(single((away + 0.3 * rng.normal(size=3)) * rng.uniform(0.2, 3) * reach), single(rng.normal(size=3)), angle)
+    return Query(question, a, b, pose_a, pose_b, motion)
+
+
+def swapped(q: Query) -> Query:
+    """The same overlap or translation with the bodies' roles exchanged: B moves by -d towards A."""
+    return Query(q.question, q.b, q.a, q.pose_b, q.pose_a, Motion(-q.motion.displacement))
+
+
+def moved_together(q: Query, half_turn: int) -> Query:
+    """Both bodies carried by one rigid motion that doubles hold exactly: a half turn about an axis and an integer shift."""
+    h = np.zeros(4)
+    h[1 + half_turn] = 1.0
+    shift = np.array([3.0, -5.0, 7.0])
+    flip = np.where(np.arange(3) == half_turn, 1.0, -1.0)
+
+    def move(pose):
+        w, x, y, z = pose.quaternion
+        v = np.array([x, y, z])
+        u = h[1:]
+        return Pose(np.concatenate([[-u @ v], w * u + np.cross(u, v)]), flip * pose.position + shift)
+
+    m = q.motion
+    return replace(q, pose_a=move(q.pose_a), pose_b=move(q.pose_b), motion=Motion(flip * m.displacement, flip * m.axis, m.angle))
+
+
+def scaled(q: Query, power: int) -> Query:
+    """Every length times 2**power, exactly."""
+    f = 2.0**power
+    a, b = (Body._of("convex", x.vertices * f, x.faces, (), x.name) for x in (q.a, q.b))
+    pose_a, pose_b = (Pose(p.quaternion, p.position * f) for p in (q.pose_a, q.pose_b))
+    return Query(q.question, a, b, pose_a, pose_b, Motion(q.motion.displacement * f, q.motion.axis, q.motion.angle))

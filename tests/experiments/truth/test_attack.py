@@ -1,0 +1,82 @@
+"""Corrupted certificates: each mutation makes a claim false or unsupported, and the checker must refuse it."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from experiments.truth import check, label
+
+from .draw import convex_query
+
+
+def labelled(question, want, count, seed):
+    rng = np.random.default_rng(seed)
+    while count:
+        query = convex_query(rng, question)
+        truth = label(query)
+        if truth.label == want:
+            count -= 1
+            yield rng, query, truth
+
+
+def refused(query, truth, **changes):
+    certificate = copy.deepcopy(dict(truth.certificate))
+    for key, change in changes.pop("inside", {}).items():
+        certificate[key] = change(certificate[key])
+    return not check(query, replace(truth, certificate=certificate, **changes)).ok
+
+
+@pytest.mark.parametrize("question", ("translation", "motion"))
+def test_separation_cannot_be_stretched_past_the_impact(question):
+    for rng, query, truth in labelled(question, "hit", 15, 4):
+        if truth.start != "clear":
+            continue
+        later = truth.t_hi + (1 - truth.t_hi) * 1e-9
+
+        def stretch(clear):
+            segments, split = clear["tree"]
+            segments[-1][0] = later
+            return clear
+
+        assert refused(query, truth, t_lo=later, t_hi=later, inside={"clear": stretch})
+        assert refused(query, truth, t_lo=later, t_hi=max(later, truth.t_hi))
+
+
+@pytest.mark.parametrize("question", ("translation", "motion"))
+def test_an_early_witness_is_refused(question):
+    for rng, query, truth in labelled(question, "hit", 15, 5):
+        if truth.start == "clear":
+            assert refused(query, truth, t_hi=truth.t_lo)
+            assert refused(query, truth, t_lo=truth.t_lo * 0.5, t_hi=truth.t_hi * 0.5)
+
+
+def test_a_flipped_label_is_refused():
+    for question in ("overlap", "translation", "motion"):
+        for rng, query, truth in labelled(question, "clear", 5, 6):
+            assert refused(query, truth, label="hit", start="hit", end="hit", gap=-1.0)
+            assert refused(query, truth, gap=truth.gap * 1.5 + 1e-9)
+            assert refused(query, replace(truth, certificate={}))
+        for rng, query, truth in labelled(question, "hit", 5, 7):
+            assert refused(query, truth, label="clear", start="clear", end="clear", gap=0.0, t_lo=np.nan, t_hi=np.nan)
+            assert refused(query, replace(truth, certificate={}))
+
+
+def test_a_witness_moved_out_of_its_tetrahedra_is_refused():
+    for rng, query, truth in labelled("overlap", "hit", 30, 8):
+        far = query.a.size + query.b.size
+
+        def move(hit):
+            hit["point"] = [float(x) + far for x in map(_float, hit["point"])]
+            return hit
+
+        assert refused(query, truth, inside={"hit": move})
+        assert refused(query, truth, inside={"hit": lambda hit: {**hit, "a": [0, *hit["a"][1:4], hit["a"][1]]}})
+
+
+def _float(x):
+    p, _, q = str(x).partition("/")
+    return float(x) if not isinstance(x, str) else int(p) / int(q or 1)
