@@ -109,7 +109,7 @@ class MujocoSpeculative(Method):
     gives_time = True
     guarantee = "conservative advancement to 2 % of the start distance: hits closer than that are called early; slow movers at the end only"
 
-    IMPEDANCE = 0.9999
+    IMPEDANCE = 0.9999  # the largest MuJoCo takes
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
@@ -141,7 +141,7 @@ class MujocoSpeculative(Method):
             data.qpos[:], data.qvel[:] = start, velocity
             undamped = detect(0)
             if undamped.size:
-                damped = detect(self.IMPEDANCE)
+                damped = detect(1)
                 speculative = damped != undamped
                 if not speculative.all():  # a real contact does not depend on solref: in touch at the start
                     return Verdict(True, 0.0)

@@ -1,0 +1,303 @@
+"""What every method must do, whatever its engine: the properties that `ofg-bench check METHOD` and the tests put it through.
+
+Each property is a function of the method that returns a list of faults, each a sentence. They ask easy questions only: how exact a
+method is on hard ones is measured, not required. They run in a process that may die.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+import multiprocessing
+import signal
+from typing import Callable, Iterator
+
+import numpy as np
+
+from ofg import QUESTIONS, Body, Motion, Pose, Query
+
+from .contract import MissingEngine, Method, Unsupported, Verdict
+
+CONFIGURATIONS = ("default", "best effort", "alternative", "as written")
+KINDS = ("convex", "union", "mesh")
+UNDECLARED_TIME_ERROR = 0.05  #: what a method that documents no bound is held to on a head-on sweep
+SECONDS = 60.0  #: limit for one property
+
+
+def check(method: Method) -> list[tuple[str, bool, str]]:
+    """(property, whether it holds, what is wrong) for every property. A crash or a hang fails the property it happened in."""
+    results: list[tuple[str, bool, str]] = []
+    while len(results) < len(PROPERTIES):
+        results += _in_child(method, PROPERTIES[len(results):])
+    return results
+
+
+def _in_child(method: Method, properties) -> list[tuple[str, bool, str]]:
+    context = multiprocessing.get_context("fork")
+    receive, send = context.Pipe(duplex=False)
+    child = context.Process(target=_run, args=(method, properties, send), daemon=True)
+    child.start()
+    send.close()
+    results = []
+    for title, _ in properties:
+        if not receive.poll(SECONDS):
+            child.kill()
+            return results + [(title, False, f"no answer within {SECONDS:g} s")]
+        try:
+            results.append(receive.recv())
+        except EOFError:
+            child.join()
+            return results + [(title, False, f"the process died: {_death(child.exitcode)}")]
+    child.join()
+    return results
+
+
+def _run(method: Method, properties, send) -> None:
+    for title, holds in properties:
+        try:
+            faults = list(holds(method))
+        except Exception as error:
+            faults = [f"{type(error).__name__}: {error}"]
+        more = [f"and {len(faults) - 3} more"] if len(faults) > 3 else []
+        send.send((title, not faults, "; ".join(faults[:3] + more)))
+
+
+def _death(code: int | None) -> str:
+    return signal.Signals(-code).name if code and code < 0 else f"exit code {code}"
+
+
+# Bodies and questions
+
+
+def box(*half: float, at=(0, 0, 0), name: str = "box") -> Body:
+    """A box of these half-extents."""
+    return Body.convex(np.array(list(itertools.product(*((-h, h) for h in half)))) + at, name)
+
+
+def body(kind: str, half: float = 1.0) -> Body:
+    """A cube of one kind."""
+    cube = box(half, half, half, name=f"cube {kind}")
+    if kind == "mesh":
+        return Body.mesh(cube.vertices, cube.faces, cube.name)
+    if kind == "union":
+        return Body.union([box(half / 2, half, half, at=(s * half / 2, 0, 0)) for s in (-1, 1)], cube.name)
+    return cube
+
+
+def hooked(kind: str) -> Body:
+    """An L in the xy plane: arms of width 1 and length 3 from the corner (0, 0); the notch is 1 < x, y < 3."""
+    if kind == "union":
+        return Body.union([box(1.5, 0.5, 0.5, at=(1.5, 0.5, 0)), box(0.5, 1, 0.5, at=(0.5, 2, 0))], "L")
+    outline = np.array([(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)], float)
+    v = np.concatenate([np.c_[outline, np.full(6, z)] for z in (-0.5, 0.5)])
+    cap = np.array([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)])
+    wall = [t for i in range(6) for t in ((i, (i + 1) % 6, (i + 1) % 6 + 6), (i, (i + 1) % 6 + 6, i + 6))]
+    return Body.mesh(v, np.concatenate([cap[:, ::-1], cap + 6, wall]), "L")
+
+
+TURNED = Pose((0.9, 0.2, -0.3, 0.25), (0, 0, 0))
+SWEEP = Motion((8, 0, 0))
+
+
+def overlap(kind: str, offset, half: float = 1.0) -> Query:
+    return Query("overlap", body(kind, half), body(kind), Pose(TURNED.quaternion, offset), Pose())
+
+
+def sweep(question: str, kind: str, start, displacement, half: float = 1.0) -> Query:
+    return Query(question, body(kind, half), body(kind), Pose(position=start), Pose(), Motion(displacement))
+
+
+def asked(method: Method, query: Query) -> Verdict:
+    return method.prepare(query)()
+
+
+def kinds(method: Method) -> list[str]:
+    return [k for k in KINDS if k in method.bodies]
+
+
+def sweeps(method: Method) -> list[tuple[str, str]]:
+    return [(q, k) for q in QUESTIONS[1:] if q in method.questions for k in kinds(method)]
+
+
+def easy(method: Method) -> list[tuple[str, Query, bool]]:
+    """(what it is, query, whether the surfaces meet) of everything the method declares to answer."""
+    queries = []
+    for kind in kinds(method) if "overlap" in method.questions else ():
+        queries.append((f"overlap of {kind} bodies far apart", overlap(kind, (7, 1, 2)), False))
+        queries.append((f"overlap of {kind} bodies 0.25 apart", Query("overlap", body(kind), body(kind), Pose(position=(2.25, 0.5, 0.25))), False))
+        queries.append((f"overlap of {kind} bodies deep in each other", overlap(kind, (0.9, 0.7, 0.5)), True))
+    for question, kind in sweeps(method):
+        queries.append((f"{question} of {kind} bodies, passing 0.5 beside", sweep(question, kind, (-4, 2.5, 0), (8, 0, 0)), False))
+        queries.append((f"{question} of {kind} bodies, moving away", sweep(question, kind, (-3, 0.1, 0.2), (-8, 0, 0)), False))
+    return queries
+
+
+# Properties
+
+
+def declaration(method: Method) -> Iterator[str]:
+    for field in ("name", "engine", "imports", "guarantee"):
+        if not isinstance(getattr(method, field, None), str) or not getattr(method, field).strip():
+            yield f"{field} must be a text, not {getattr(method, field, None)!r}"
+    if " " in method.name or method.name != method.name.lower():
+        yield f"name '{method.name}' must be lower case without spaces"
+    if method.configuration not in CONFIGURATIONS:
+        yield f"configuration '{method.configuration}' is none of {', '.join(CONFIGURATIONS)}"
+    if not method.questions or not method.questions <= set(QUESTIONS):
+        yield f"questions {set(method.questions)} must be some of {', '.join(QUESTIONS)}"
+    if not method.bodies or not method.bodies <= set(KINDS):
+        yield f"bodies {set(method.bodies)} must be some of {', '.join(KINDS)}"
+    if not isinstance(method.solid, bool):
+        yield "solid must be True or False"
+    if not method.margin >= 0:
+        yield f"margin {method.margin} must be a length"
+    if any(" " in str(v) or "," in str(v) for v in method.parameters.values()):
+        yield "a parameter's value holds a space or a comma, so the label cannot be read back"
+
+
+def far_and_near(method: Method) -> Iterator[str]:
+    for what, query, hit in easy(method):
+        verdict = asked(method, query)
+        if verdict.hit != hit:
+            yield f"{what}: answered {_word(verdict)}"
+
+
+def contained(method: Method) -> Iterator[str]:
+    """A cube well inside another, at rest or moving a little: a solid method sees it, a surface method does not.
+
+    It stays on one side of x = 0, where the pieces of a union meet in an inner wall that a surface method does see.
+    """
+    queries = [(f"overlap, {k}", Query("overlap", body(k, 0.25), body(k), Pose(position=(0.3, 0.1, 0.3))))
+               for k in kinds(method) if "overlap" in method.questions]
+    queries += [(f"{q}, {k}", sweep(q, k, (0.3, 0.1, 0.3), (0.3, 0, 0), half=0.25)) for q, k in sweeps(method)]
+    for what, query in queries:
+        verdict = asked(method, query)
+        if method.solid and not verdict.hit:
+            yield f"{what}: declared solid, but a contained body is not seen"
+        if not method.solid and verdict.hit:
+            yield f"{what}: declared a surface method, but a contained body is seen"
+
+
+def notch(method: Method) -> Iterator[str]:
+    """A small cube in the notch of an L: inside its hull, outside its solid."""
+    for kind in kinds(method):
+        if kind == "convex" or "overlap" not in method.questions:
+            continue
+        for at, hit in (((1.75, 1.75, 0), False), ((0.9, 2, 0), True)):
+            if asked(method, Query("overlap", body(kind, 0.3), hooked(kind), Pose(position=at))).hit != hit:
+                yield f"{kind}: a cube {'across the arm' if hit else 'in the notch'} of an L is called {'clear' if hit else 'a hit'}"
+
+
+def beyond_margin(method: Method) -> Iterator[str]:
+    """Cubes apart by the declared margin and 0.002 more are clear."""
+    gap = method.margin + 0.002
+    for kind in kinds(method):
+        if "overlap" in method.questions and asked(method, Query("overlap", body(kind), body(kind), Pose(position=(2 + gap, 0.3, 0.2)))).hit:
+            yield f"{kind}: cubes {gap:g} apart are called a hit, but the declared margin is {method.margin:g}"
+
+
+def head_on(method: Method) -> Iterator[str]:
+    """A cube through another, which it meets at t = 0.3, then one that stops inside it; three lateral offsets."""
+    for (question, kind), side, far in itertools.product(sweeps(method), (0.0, 0.3, 0.7), (10.0, 5.0)):
+        verdict = asked(method, sweep(question, kind, (-5, side, side / 2), (far, 0, 0)))
+        exact = 3 / far
+        fault = _time_fault(method, verdict, exact) if verdict.hit else "missed"
+        sampled = method.time_error == method.time_error and method.time_error > 0.4  # end pose only: may pass through
+        if fault and not (sampled and not verdict.hit):
+            yield f"{question}, {kind}, offset {side}, meets at {exact:g}: {fault}"
+
+
+def _time_fault(method: Method, verdict: Verdict, exact: float) -> str:
+    if not method.gives_time:
+        return "" if math.isnan(verdict.time) else f"gives the time {verdict.time}, but declares that it gives none"
+    bound = UNDECLARED_TIME_ERROR if math.isnan(method.time_error) else method.time_error
+    if not 0 <= verdict.time <= 1:
+        return f"time {verdict.time} is not in [0, 1]"
+    off = verdict.time - exact
+    return "" if abs(off) <= bound + 1e-6 else f"time {verdict.time:.6g} is {off:+.2g} off, more than {bound:.2g}"
+
+
+def same_again(method: Method) -> Iterator[str]:
+    """The same callable twice, after others, and prepared anew: one answer."""
+    queries = [query for _, query, _ in easy(method)] + [sweep(q, k, (-5, 0.3, 0.1), (10, 0, 0)) for q, k in sweeps(method)]
+    calls = [method.prepare(query) for query in queries]
+    first = [call() for call in calls]
+    for what, again in (("asked again in reverse order", [call() for call in reversed(calls)][::-1]),
+                        ("prepared anew", [asked(method, query) for query in queries]),
+                        ("asked after others were prepared", [call() for call in calls])):
+        for query, a, b in zip(queries, first, again):
+            if repr(a) != repr(b):
+                yield f"{query.question} {what}: first {_word(a)}, then {_word(b)}"
+
+
+def moved_together(method: Method) -> Iterator[str]:
+    """Turning and moving the whole question changes no verdict."""
+    frame = Pose((0.8, 0.1, 0.5, -0.3), (3, -2, 1))
+
+    def moved(pose: Pose) -> Pose:
+        return Pose(_product(frame.quaternion, pose.quaternion), frame.apply(pose.position[None])[0])
+
+    for what, query, hit in easy(method):
+        motion = Motion(frame.rotation @ query.motion.displacement)
+        verdict = asked(method, Query(query.question, query.a, query.b, moved(query.pose_a), moved(query.pose_b), motion))
+        if verdict.hit != hit:
+            yield f"{what}, moved together: answered {_word(verdict)}"
+
+
+def refuses(method: Method) -> Iterator[str]:
+    for question, kind in itertools.product(QUESTIONS, KINDS):
+        if question in method.questions and kind in method.bodies:
+            continue
+        query = overlap(kind, (3, 0, 0)) if question == "overlap" else sweep(question, kind, (-5, 0, 0), (1, 0, 0))
+        try:
+            method.prepare(query)
+            yield f"{question} of {kind} bodies is not declared, but prepare does not raise Unsupported"
+        except Unsupported as refusal:
+            if not str(refusal).strip():
+                yield f"{question} of {kind} bodies: Unsupported without a reason"
+
+
+def translation_is_motion(method: Method) -> Iterator[str]:
+    if not {"translation", "motion"} <= set(method.questions):
+        return
+    for kind, side in itertools.product(kinds(method), (0.2, 2.5)):
+        a, b = (asked(method, sweep(q, kind, (-5, side, 0.1), (10, 0, 0))) for q in ("translation", "motion"))
+        if a.hit != b.hit or (a.hit and method.gives_time and abs(a.time - b.time) > 1e-3):
+            yield f"{kind}, offset {side}: translation is {_word(a)}, the same as a motion with angle 0 is {_word(b)}"
+
+
+def turns(method: Method) -> Iterator[str]:
+    """A bar of length 6 that turns in place by 170 degrees sweeps a cube off its path; the same bar at rest misses it."""
+    if "motion" not in method.questions:
+        return
+    for kind in kinds(method):
+        bar = box(3, 0.4, 0.4, name="bar")
+        bar = Body.mesh(bar.vertices, bar.faces) if kind == "mesh" else Body.union([bar]) if kind == "union" else bar
+        for angle, hit in ((math.radians(170), True), (0.0, False)):
+            verdict = asked(method, Query("motion", bar, body(kind, 0.4), Pose(), Pose(position=(0, 2, 0)), Motion((0, 0, 0.01), (0, 0, 1), angle)))
+            sampled = method.time_error == method.time_error and method.time_error > 0.1
+            if verdict.hit != hit and not sampled:
+                yield f"{kind}: a bar turning by {math.degrees(angle):.0f} degrees {'into' if hit else 'beside'} a cube: {_word(verdict)}"
+
+
+def _product(p, q) -> np.ndarray:
+    return np.concatenate([[p[0] * q[0] - p[1:] @ q[1:]], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])])
+
+
+def _word(verdict: Verdict) -> str:
+    return f"hit at {verdict.time:.6g}" if verdict.hit and not math.isnan(verdict.time) else "hit" if verdict.hit else "clear"
+
+
+PROPERTIES: list[tuple[str, Callable[[Method], Iterator[str]]]] = [
+    ("declares itself", declaration),
+    ("far apart is clear, deep overlap is a hit", far_and_near),
+    ("a contained body is seen by solid methods alone", contained),
+    ("the notch of a concave body is empty", notch),
+    ("clear beyond its margin", beyond_margin),
+    ("meets a head-on sweep at its time", head_on),
+    ("gives the same answer again", same_again),
+    ("does not depend on the frame", moved_together),
+    ("refuses what it does not declare", refuses),
+    ("a translation is a motion that does not turn", translation_is_motion),
+    ("sees what a turning bar meets", turns),
+]

@@ -1,0 +1,31 @@
+"""The conformance suite itself: methods with one fault each must fail the property that is about it."""
+
+from pathlib import Path
+
+import pytest
+
+from baselines import conformance, registry
+
+FAULTY = Path(__file__).with_name("faulty.py")
+
+
+@pytest.mark.parametrize("name, title, word", [
+    ("faulty-never", "far apart is clear, deep overlap is a hit", "answered clear"),
+    ("faulty-never", "a contained body is seen by solid methods alone", "not seen"),
+    ("faulty-fickle", "gives the same answer again", "then"),
+    ("faulty-careless", "refuses what it does not declare", "does not raise Unsupported"),
+    ("faulty-mute", "refuses what it does not declare", "without a reason"),
+    ("faulty-late", "meets a head-on sweep at its time", "more than 0.01"),
+    ("faulty-aborting", "far apart is clear, deep overlap is a hit", "SIGABRT"),
+])
+def test_fault_is_found(name, title, word):
+    cls = registry.load_file(FAULTY)[name]
+    found = {t: (ok, detail) for t, ok, detail in conformance.check(cls())}
+    ok, detail = found[title]
+    assert not ok and word in detail
+    assert len(found) == len(conformance.PROPERTIES)  # a process that died did not cost the other properties
+
+
+def test_nothing_else_is_found():
+    failed = [title for title, ok, _ in conformance.check(registry.load_file(FAULTY)["faulty-aligned"]()) if not ok]
+    assert failed == ["does not depend on the frame"]
