@@ -45,6 +45,7 @@ class Method(ABC):
     margin: ClassVar[float] = 0.0  #: documented distance (length) below which a clear pair may be called a hit
     guarantee: ClassVar[str]  #: one line: what an answer is worth by its documentation
     time_error: float = nan  #: documented bound on |time - true time|, as a share of the step; may be a property
+    cheapest: ClassVar[Mapping[str, Any]] = {}  #: parameters of its cheapest call, which gives its floor: {"n": 1} for n substeps
     parameters: ClassVar[Mapping[str, Any]] = {}  #: name -> default; the first is the one its accuracy-speed curve runs over
 
     def __init__(self, **parameters):

@@ -40,6 +40,7 @@ class Substeps(Discrete):
     questions = frozenset({"translation", "motion"})
     gives_time = True
     parameters = {"n": 16}
+    cheapest = {"n": 1}
 
     def __init__(self, **parameters):
         super().__init__(**parameters)

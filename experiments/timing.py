@@ -4,7 +4,8 @@ Protocol. Cases are put into bins by question, size and situation (how far apart
 itself, so that poses change from call to call (a repeated pose flatters by up to 3x). Methods take turns bin by bin within
 a round, in an order that rotates from round to round, so that a slow minute of the machine falls on all of them; taking turns
 call by call was left out because each call would then find the instruction cache full of another engine. The floor of a
-method is its own call on two tetrahedra far apart, timed in the same rounds: what the binding and an early way out cost.
+method is its own cheapest call (of n substeps: one) on two tetrahedra far apart, timed in the same rounds: what the binding and
+an early way out cost. A net time of n substeps therefore still holds the binding's cost of n - 1 calls.
 Only cases that a method answered (status ok) are timed; building (`prepare`) is timed once per case.
 """
 
@@ -131,7 +132,8 @@ def _prepare(label: str, bin_: Bin, answered: set[str]) -> list[tuple]:
     (method,) = registry.make(label)
     group = []
     try:
-        group.append((label, FLOOR, 0, method.prepare(floor_query(bin_.question))))
+        cheapest = type(method)(**{**method.parameters, **method.cheapest})
+        group.append((label, FLOOR, 0, cheapest.prepare(floor_query(bin_.question))))
     except Unsupported:
         pass
     for case in bin_.cases:
