@@ -1,0 +1,33 @@
+"""All faces against all faces: the answer that OFG approaches as k grows."""
+
+from __future__ import annotations
+
+from typing import Callable
+
+import ofg
+from ofg import QUESTIONS, Query
+from ofg.algorithm import BRUTE_FORCE
+
+from .contract import Method, Verdict
+
+
+class BruteForce(Method):
+    """Every pair of faces and, in a sweep, every virtual edge of A against every face of B. Sees surfaces, and sweeps only A's vertices."""
+
+    name = "brute-force"
+    engine = "ofg"
+    imports = "ofg"
+    configuration = "as written"
+    questions = frozenset(QUESTIONS)
+    bodies = frozenset({"convex", "union", "mesh"})
+    solid = False
+    gives_time = True
+    guarantee = "overlap: surfaces that meet are found, to double rounding; sweeps: only what A's vertices meet on their chords"
+
+    def prepare(self, query: Query) -> Callable[[], Verdict]:
+        self.refuse(query)
+        ask = ofg.prepare(query, algorithm=BRUTE_FORCE)
+        return lambda: Verdict(*ask())
+
+
+METHODS = [BruteForce]

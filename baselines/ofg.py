@@ -1,0 +1,57 @@
+"""Opposing Face Geometry itself, behind the same contract as the engines."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import Callable
+
+import ofg
+from ofg import QUESTIONS, Query
+
+from .contract import Method, Unsupported, Verdict
+
+
+class OpposingFaceGeometry(Method):
+    """As written in the article. With `repairs` (see ofg.REPAIRS: "all", "all-but-X", "X", "X+Y") as mended.
+
+    k: faces per selection; "inf" for all. concave: how a body that is not convex is asked: "object" (OFG picks one pair of pieces; a mesh is
+    first decomposed by CoACD, cached), "undivided" (its surface as one mesh), "all-pairs" of pieces.
+    """
+
+    name = "ofg"
+    engine = "ofg"
+    imports = "ofg"
+    configuration = "as written"
+    questions = frozenset(QUESTIONS)
+    bodies = frozenset({"convex", "union", "mesh"})
+    solid = False
+    gives_time = True
+    guarantee = "a hit is a contact of faces to double rounding; as written nothing is promised about what it does not find"
+    parameters = {
+        "k": 8, "toi": "velocity", "broad": "swept", "concave": "object", "repairs": "none", "selection": "centroid", "adaptive_k": False,
+        "both_vertices": False, "edge_edge": False, "selections": 1, "arc_tolerance": 0.0, "containment": False, "earliest": False,
+        "iterations": 20, "precision": "double",
+    }
+
+    def prepare(self, query: Query) -> Callable[[], Verdict]:
+        self.refuse(query)
+        given = {name: value for name, value in self.parameters.items() if value != type(self).parameters[name]}
+        options = {**ofg.repair_options(given.pop("repairs", "none")), **given, "k": _faces(self.parameters["k"])}
+        if options.get("concave") != "undivided":
+            query = Query(query.question, _pieces(query.a), _pieces(query.b), query.pose_a, query.pose_b, query.motion)
+        ask = ofg.prepare(query, **options)
+        return lambda: Verdict(*ask())
+
+
+def _faces(k) -> int:
+    return 2**31 - 1 if k in ("inf", inf) else k
+
+
+def _pieces(body: ofg.Body) -> ofg.Body:
+    try:
+        return ofg.decompose(body)
+    except ofg.BodyError as error:
+        raise Unsupported(f"no convex pieces: {error}") from error
+
+
+METHODS = [OpposingFaceGeometry]

@@ -1,0 +1,64 @@
+"""What OFG returns: one answer, or one per row of arrays of poses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+#: what the hit is, in the order of the core's codes
+FOUND = ("nothing", "start", "end", "edge-face", "face-edge", "edge-edge", "inside")
+#: what is counted: see `Answer.counts`
+COUNTS = ("spheres", "distances", "face_pairs", "edge_faces", "edge_pairs", "full_tests", "steps")
+
+
+@dataclass(frozen=True)
+class Answer:
+    """hit: the bodies meet. time: of impact in [0, 1], NaN where the method gives none (article: only a virtual edge's hit has one).
+
+    found: what met: "start" or "end" (faces at that pose; an overlap query has only "start"), "edge-face" (a virtual edge of A and a face of
+    B) and, with repairs, "face-edge" (a virtual edge of B), "edge-edge", "inside"; "nothing" without a hit.
+    faces: (face of A, face of B) that met, indices into the faces of `pieces`; -1 where no face did.
+    pieces: (piece of A, piece of B) that were asked; -1 for an undivided mesh.
+    estimate: "velocity", "bisection" or "none": how the time was found.
+    counts: operations by kind: spheres (pairs compared), distances (point to face or piece), face_pairs (settled), edge_faces (virtual
+    edges against faces), edge_pairs, full_tests (of face_pairs: not settled by a cheap rejection), steps (parts of the step, halvings).
+    """
+
+    hit: bool
+    time: float
+    found: str
+    faces: tuple[int, int]
+    pieces: tuple[int, int]
+    estimate: str
+    counts: dict[str, int]
+
+    def __bool__(self) -> bool:
+        return self.hit
+
+
+@dataclass(frozen=True, eq=False)
+class Answers:
+    """The fields of `Answer` as arrays over n queries: hit (n,) bool, time (n,) float64, found (n,) int8 (codes: index into FOUND),
+    faces and pieces (n, 2) int32, counts (n, 7) int64 in the order of COUNTS. answers[i] is one Answer."""
+
+    hit: np.ndarray
+    time: np.ndarray
+    found: np.ndarray
+    faces: np.ndarray
+    pieces: np.ndarray
+    counts: np.ndarray
+    toi: str = "velocity"
+
+    def __len__(self) -> int:
+        return len(self.hit)
+
+    def __getitem__(self, i: int) -> Answer:
+        found = FOUND[self.found[i]]
+        estimate = self.toi if found in ("edge-face", "face-edge", "edge-edge") else "none"
+        return Answer(bool(self.hit[i]), float(self.time[i]), found, tuple(map(int, self.faces[i])), tuple(map(int, self.pieces[i])), estimate,
+                      dict(zip(COUNTS, map(int, self.counts[i]))))
+
+    def count(self, name: str) -> np.ndarray:
+        """(n,) int64 of one kind of operation."""
+        return self.counts[:, COUNTS.index(name)]

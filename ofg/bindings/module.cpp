@@ -1,0 +1,196 @@
+// Python's way into the core: arrays in, arrays out, the interpreter lock released while asking.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "ofg/brute_force.hpp"
+#include "ofg/ofg.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace {
+
+using Doubles = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Ints = nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+
+// A body in both precisions.
+struct Solid {
+  ofg::Body<double> fine;
+  ofg::Body<float> coarse;
+
+  Solid(Doubles v, Ints f, bool convex, const std::vector<Doubles>& pv, const std::vector<Ints>& pf) {
+    fill(fine, v, f, convex, pv, pf);
+    fill(coarse, v, f, convex, pv, pf);
+  }
+
+  template <class T>
+  static void fill(ofg::Body<T>& body, const Doubles& v, const Ints& f, bool convex, const std::vector<Doubles>& pv, const std::vector<Ints>& pf) {
+    body.whole = ofg::Mesh<T>(v.data(), v.shape(0), f.data(), f.shape(0), convex);
+    for (std::size_t i = 0; i < pv.size(); ++i)
+      body.pieces.emplace_back(pv[i].data(), pv[i].shape(0), pf[i].data(), pf[i].shape(0), true);
+    body.close();
+  }
+
+  template <class T>
+  const ofg::Body<T>& as() const {
+    if constexpr (std::is_same_v<T, float>) return coarse;
+    else return fine;
+  }
+};
+
+enum class Algorithm { ofg, brute_force };
+
+template <class T>
+ofg::Answer ask(Algorithm how, bool moving, const Solid& a, const Solid& b, const ofg::Track& track, const ofg::Options& o, ofg::Workspace<T>& w) {
+  const auto &ba = a.as<T>(), &bb = b.as<T>();
+  if (how == Algorithm::brute_force) return moving ? ofg::brute_force::sweep(ba, bb, track) : ofg::brute_force::overlap(ba, bb, track);
+  return moving ? ofg::sweep(ba, bb, track, o, w) : ofg::overlap(ba, bb, track, o, w);
+}
+
+ofg::Pose pose_of(const double* p) { return {{p[0], p[1], p[2], p[3]}, {p[4], p[5], p[6]}}; }
+ofg::Motion motion_of(const double* m) { return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, m[6]}; }
+
+// One query, ready to be asked again and again: what a harness times.
+struct Prepared {
+  nb::object keep_a, keep_b;
+  const Solid &a, &b;
+  ofg::Pose pose_a, pose_b;
+  ofg::Motion motion_a, motion_b;
+  ofg::Options options;
+  Algorithm how;
+  bool moving, single;
+  ofg::Workspace<double> fine;
+  ofg::Workspace<float> coarse;
+
+  Prepared(nb::object oa, nb::object ob, Doubles poses, Doubles motions, const ofg::Options& o, int how_, bool moving_, bool single_)
+      : keep_a(oa), keep_b(ob), a(nb::cast<const Solid&>(oa)), b(nb::cast<const Solid&>(ob)), pose_a(pose_of(poses.data())),
+        pose_b(pose_of(poses.data() + 7)), motion_a(motion_of(motions.data())), motion_b(motion_of(motions.data() + 7)), options(o),
+        how(Algorithm(how_)), moving(moving_), single(single_) {
+    fine.reserve(a.fine, b.fine);
+    coarse.reserve(a.coarse, b.coarse);
+  }
+
+  ofg::Answer answer() {
+    const ofg::Track track(pose_a, pose_b, motion_a, motion_b);
+    return single ? ask(how, moving, a, b, track, options, coarse) : ask(how, moving, a, b, track, options, fine);
+  }
+  nb::tuple call() {
+    const ofg::Answer x = answer();
+    return nb::make_tuple(x.hit, x.time);
+  }
+};
+
+constexpr int columns = 7;
+void count(const ofg::Counts& c, std::int64_t* to) {
+  const std::int64_t all[columns] = {c.spheres, c.distances, c.face_pairs, c.edge_faces, c.edge_pairs, c.full_tests, c.steps};
+  std::copy(all, all + columns, to);
+}
+
+template <class T>
+void ask_range(Algorithm how, bool moving, const Solid& a, const Solid& b, const double* pa, const double* pb, const double* ma, const double* mb,
+               const ofg::Options& o, std::size_t from, std::size_t to, ofg::Answer* out) {
+  ofg::Workspace<T> w;
+  w.reserve(a.as<T>(), b.as<T>());
+  for (std::size_t i = from; i < to; ++i) {
+    const ofg::Track track(pose_of(pa + 7 * i), pose_of(pb + 7 * i), motion_of(ma + 7 * i), motion_of(mb + 7 * i));
+    out[i] = ask(how, moving, a, b, track, o, w);
+  }
+}
+
+template <class T>
+nb::ndarray<nb::numpy, T> array(std::vector<std::size_t> shape, T*& data) {
+  std::size_t n = 1;
+  for (auto s : shape) n *= s;
+  data = new T[n ? n : 1];
+  nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<T*>(p); });
+  return nb::ndarray<nb::numpy, T>(data, shape.size(), shape.data(), owner);
+}
+
+nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubles ma, Doubles mb, const ofg::Options& o, int how, bool moving,
+                   bool single, int threads) {
+  const std::size_t n = pa.shape(0);
+  std::vector<ofg::Answer> answers(n);
+  {
+    nb::gil_scoped_release released;
+    const auto range = single ? ask_range<float> : ask_range<double>;
+    const std::size_t parts = std::min<std::size_t>(std::max(threads, 1), std::max<std::size_t>(n, 1));
+    std::vector<std::thread> others;
+    const auto part = [&](std::size_t i) {
+      range(Algorithm(how), moving, a, b, pa.data(), pb.data(), ma.data(), mb.data(), o, n * i / parts, n * (i + 1) / parts, answers.data());
+    };
+    for (std::size_t i = 1; i < parts; ++i) others.emplace_back(part, i);
+    part(0);
+    for (auto& t : others) t.join();
+  }
+  bool* hit;
+  double* time;
+  std::int8_t* found;
+  std::int32_t *faces, *pieces;
+  std::int64_t* counts;
+  auto hits = array<bool>({n}, hit);
+  auto times = array<double>({n}, time);
+  auto founds = array<std::int8_t>({n}, found);
+  auto all_faces = array<std::int32_t>({n, 2}, faces);
+  auto all_pieces = array<std::int32_t>({n, 2}, pieces);
+  auto all_counts = array<std::int64_t>({n, columns}, counts);
+  for (std::size_t i = 0; i < n; ++i) {
+    const ofg::Answer& x = answers[i];
+    hit[i] = x.hit, time[i] = x.time, found[i] = std::int8_t(x.found);
+    faces[2 * i] = x.face_a, faces[2 * i + 1] = x.face_b;
+    pieces[2 * i] = x.piece_a, pieces[2 * i + 1] = x.piece_b;
+    count(x.counts, counts + columns * i);
+  }
+  return nb::make_tuple(hits, times, founds, all_faces, all_pieces, all_counts);
+}
+
+}  // namespace
+
+// Triangle against triangle, pair by pair: (n, 18) rows of six corners. For the tests.
+template <class T>
+nb::ndarray<nb::numpy, bool> triangles_meet(Doubles pairs) {
+  bool* meet;
+  auto out = array<bool>({pairs.shape(0)}, meet);
+  for (std::size_t i = 0; i < pairs.shape(0); ++i) {
+    const double* x = pairs.data() + 18 * i;
+    T scale = 0;
+    for (int j = 0; j < 18; ++j) scale = std::fmax(scale, std::abs(T(x[j])));
+    const auto at = [&](int j) { return ofg::Vec3<T>(T(x[j]), T(x[j + 1]), T(x[j + 2])); };
+    meet[i] = ofg::triangles_meet<T>({at(0), at(3), at(6)}, {at(9), at(12), at(15)}, scale);
+  }
+  return out;
+}
+
+NB_MODULE(_core, m) {
+  m.def("triangles_meet", &triangles_meet<double>, "pairs"_a);
+  m.def("triangles_meet_float", &triangles_meet<float>, "pairs"_a);
+  nb::class_<Solid>(m, "Solid")
+      .def(nb::init<Doubles, Ints, bool, const std::vector<Doubles>&, const std::vector<Ints>&>(), "vertices"_a, "faces"_a, "convex"_a,
+           "piece_vertices"_a, "piece_faces"_a);
+  nb::class_<ofg::Options>(m, "Options")
+      .def(nb::init<>())
+      .def_rw("k", &ofg::Options::k)
+      .def_prop_rw("toi", [](const ofg::Options& o) { return int(o.toi); }, [](ofg::Options& o, int v) { o.toi = ofg::Toi(v); })
+      .def_prop_rw("broad", [](const ofg::Options& o) { return int(o.broad); }, [](ofg::Options& o, int v) { o.broad = ofg::Broad(v); })
+      .def_prop_rw("concave", [](const ofg::Options& o) { return int(o.concave); }, [](ofg::Options& o, int v) { o.concave = ofg::Concave(v); })
+      .def_prop_rw("nearest", [](const ofg::Options& o) { return int(o.nearest); }, [](ofg::Options& o, int v) { o.nearest = ofg::Nearest(v); })
+      .def_rw("iterations", &ofg::Options::iterations)
+      .def_rw("adaptive_k", &ofg::Options::adaptive_k)
+      .def_rw("both_vertices", &ofg::Options::both_vertices)
+      .def_rw("edge_edge", &ofg::Options::edge_edge)
+      .def_rw("selections", &ofg::Options::selections)
+      .def_rw("arc_tolerance", &ofg::Options::arc_tolerance)
+      .def_rw("containment", &ofg::Options::containment)
+      .def_rw("earliest", &ofg::Options::earliest);
+  nb::class_<Prepared>(m, "Prepared")
+      .def(nb::init<nb::object, nb::object, Doubles, Doubles, const ofg::Options&, int, bool, bool>(), "a"_a, "b"_a, "poses"_a, "motions"_a,
+           "options"_a, "algorithm"_a, "moving"_a, "single"_a)
+      .def("__call__", &Prepared::call, "(hit, time)");
+  m.def("ask_many", &ask_many, "a"_a, "b"_a, "poses_a"_a, "poses_b"_a, "motions_a"_a, "motions_b"_a, "options"_a, "algorithm"_a, "moving"_a,
+        "single"_a, "threads"_a);
+}

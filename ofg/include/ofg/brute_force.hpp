@@ -1,0 +1,81 @@
+// The reference that OFG must equal when k is no less than the number of faces: every face against every face and, in a sweep,
+// every vertex's virtual edge against every face. Plain loops, no selection, no rejection but bounding boxes of faces.
+#pragma once
+#include "ofg.hpp"
+
+namespace ofg::brute_force {
+namespace detail {
+
+template <class T>
+struct Box {
+  Vec3<T> lo, hi;
+  explicit Box(const Triangle<T>& t)
+      : lo{std::fmin(t.a.x, std::fmin(t.b.x, t.c.x)), std::fmin(t.a.y, std::fmin(t.b.y, t.c.y)), std::fmin(t.a.z, std::fmin(t.b.z, t.c.z))},
+        hi{std::fmax(t.a.x, std::fmax(t.b.x, t.c.x)), std::fmax(t.a.y, std::fmax(t.b.y, t.c.y)), std::fmax(t.a.z, std::fmax(t.b.z, t.c.z))} {}
+  bool apart(const Box& b, T slack) const {
+    return lo.x > b.hi.x + slack || b.lo.x > hi.x + slack || lo.y > b.hi.y + slack || b.lo.y > hi.y + slack || lo.z > b.hi.z + slack ||
+           b.lo.z > hi.z + slack;
+  }
+};
+
+template <class T>
+bool surfaces_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T scale, Answer& answer) {
+  for (int i = 0; i < a.size(); ++i) {
+    const Triangle<T> t = a.triangle(i), s{to_b(t.a), to_b(t.b), to_b(t.c)};
+    const Box<T> box(s);
+    for (int j = 0; j < b.size(); ++j) {
+      const Triangle<T> other = b.triangle(j);
+      ++answer.counts.face_pairs;
+      if (box.apart(Box<T>(other), 2 * rounding<T> * scale)) continue;
+      ++answer.counts.full_tests;
+      if (!triangles_meet(s, other, scale)) continue;
+      answer.face_a = i, answer.face_b = j;
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace detail
+
+// Do the surfaces of two whole bodies meet at the start of `track`?
+template <class T>
+Answer overlap(const Body<T>& a, const Body<T>& b, const Track& track) {
+  Answer answer;
+  answer.counts.steps = 1;
+  const Transform<T> to_b(track.at(0));
+  answer.hit = detail::surfaces_meet(a.whole, b.whole, to_b, ofg::detail::scale_of(a.whole, b.whole, to_b.p), answer);
+  if (answer.hit) answer.found = Found::start;
+  return answer;
+}
+
+// Does any of A's virtual edges meet a face of B, or do the surfaces meet at either end? Time: that of the earliest virtual edge.
+template <class T>
+Answer sweep(const Body<T>& a, const Body<T>& b, const Track& track) {
+  Answer answer;
+  answer.counts.steps = 1;
+  const Mesh<T>&ma = a.whole, &mb = b.whole;
+  const ofg::detail::Window<T> window{0, 1, track.at(0), track.at(1)};
+  const Transform<T> start(window.start), end(window.end);
+  const T scale = std::fmax(ofg::detail::scale_of(ma, mb, start.p), ofg::detail::scale_of(ma, mb, end.p));
+  ofg::detail::Contact contact;
+  for (int i = 0; i < ma.vertices.size(); ++i)
+    for (int j = 0; j < mb.size(); ++j) {
+      ++answer.counts.edge_faces;
+      const T share = segment_meets(start(ma.vertices[i]), end(ma.vertices[i]), mb.triangle(j), scale);
+      if (share >= 0 && share < contact.share) contact = {Found::edge_face, double(share), i, j, -1, j};
+    }
+  if (contact.found != Found::nothing) {
+    answer.hit = true, answer.found = contact.found, answer.face_b = contact.face_b;
+    answer.time = ofg::detail::velocity_time(ma, mb, track, window, contact);
+    return answer;
+  }
+  for (const auto* pose : {&start, &end}) {
+    answer.hit = detail::surfaces_meet(ma, mb, *pose, scale, answer);
+    if (answer.hit) answer.found = pose == &start ? Found::start : Found::end;
+    if (answer.hit) break;
+  }
+  return answer;
+}
+
+}  // namespace ofg::brute_force

@@ -1,0 +1,54 @@
+// Is a point inside a body? Surfaces that do not meet still overlap as solids when one lies inside the other.
+#pragma once
+#include "mesh.hpp"
+#include "motion.hpp"
+
+namespace ofg {
+
+// Strictly behind every face plane of a convex mesh, by more than rounding.
+template <class T>
+bool inside_convex(const Mesh<T>& m, const Vec3<T>& p) {
+  const Vec3<T> d = p - m.centre;
+  if (dot(d, d) > m.radius * m.radius) return false;
+  const T slack = rounding<T> * (m.extent + largest(p));
+  for (int f = 0; f < m.size(); ++f) {
+    const Triangle<T> t = m.triangle(f);
+    const Vec3<T> n = t.normal();
+    if (dot(n, p - t.a) > -slack * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) && dot(n, n) > 0) return false;
+  }
+  return true;
+}
+
+// By the winding number of a closed mesh (van Oosterom and Strackee 1983): the solid angles of its faces sum to 4 pi inside.
+template <class T>
+bool inside_closed(const Mesh<T>& m, const Vec3<T>& p) {
+  const Vec3<T> d = p - m.centre;
+  if (dot(d, d) > m.radius * m.radius) return false;
+  double angle = 0;
+  for (int f = 0; f < m.size(); ++f) {
+    const Triangle<T> t = m.triangle(f);
+    const Vec3<double> a(t.a - p), b(t.b - p), c(t.c - p);
+    const double la = length(a), lb = length(b), lc = length(c);
+    angle += std::atan2(triple(a, b, c), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+  }
+  return angle > 3.14159265358979323846;  // half of the full 2 pi: atan2 gives half of each solid angle
+}
+
+// A point that surely belongs to the solid: of a convex mesh its centre, of another its first vertex.
+template <class T>
+Vec3<T> own_point(const Mesh<T>& m) {
+  return m.convex ? m.centre : m.vertices[0];
+}
+
+template <class T>
+bool inside(const Mesh<T>& m, const Vec3<T>& p) {
+  return m.convex ? inside_convex(m, p) : inside_closed(m, p);
+}
+
+// Does either solid hold the other's point? For solids whose surfaces do not meet this decides whether they overlap.
+template <class T>
+bool one_inside_other(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& a_to_b) {
+  return inside(b, a_to_b(own_point(a))) || inside(a, a_to_b.inverse()(own_point(b)));
+}
+
+}  // namespace ofg

@@ -1,0 +1,284 @@
+// OFG over one step: do two moving meshes meet, and when? Translational and rotational sweep are one algorithm, on the motion
+// of A as seen from B; its virtual edges are exact for translations and chords of the true paths for turns.
+#pragma once
+#include "overlap.hpp"
+
+namespace ofg {
+namespace detail {
+
+// A part of the step, with the poses of A in B's frame at its ends.
+template <class T>
+struct Window {
+  double t0, t1;
+  Transform<double> start, end;
+  double at(double share) const { return t0 + (t1 - t0) * share; }
+};
+
+// Step 1 over a window: spheres swept along the chord between the centres, grown by what the true path strays from it.
+template <class T>
+bool swept_spheres_apart(const Mesh<T>& a, const Mesh<T>& b, const Track& track, double t0, double t1, double slack) {
+  const Vec3<double> ca(a.centre), cb(b.centre);
+  const Vec3<double> from = track.between(ca, cb, t0), step = track.between(ca, cb, t1) - from;
+  const double along = dot(step, step);
+  const double at = along > 0 ? std::fmin(1.0, std::fmax(0.0, -dot(from, step) / along)) : 0.0;
+  const double stray = track.a.stray(length(ca), t1 - t0) + track.b.stray(length(cb), t1 - t0);
+  return spheres_apart(from + step * at, double(a.radius) + double(b.radius) + stray + slack);
+}
+
+// What met what, for the time of impact: a vertex and a face, or two edges.
+struct Contact {
+  Found found = Found::nothing;
+  double share = 2;  // of the window
+  int moving = -1, fixed = -1;
+  int face_a = -1, face_b = -1;
+};
+
+// Virtual edges: the chords of the selected vertices of `m`, from `start` to `end`, against the other's selected faces, all in the
+// frame of the other. Stops at the first hit, or finds the earliest.
+template <class T>
+bool virtual_edges_meet(const Mesh<T>& m, const Selection<T>& s, const Transform<T>& start, const Transform<T>& end,
+                        const Selection<T>& other, T scale, bool swapped, bool earliest, Contact& contact, Counts& counts) {
+  bool hit = false;
+  for (std::size_t i = 0; i < s.vertices.size(); ++i) {
+    const Vec3<T> v = m.vertices[s.vertices[i]], p = start(v), q = end(v);
+    for (int j = 0; j < other.size(); ++j) {
+      ++counts.edge_faces;
+      const T share = segment_meets(p, q, other.triangle[j], scale);
+      if (share < 0 || !(share < contact.share)) continue;
+      const int own = s.vertex_face[i], its = other.near[j].face;
+      contact = {swapped ? Found::face_edge : Found::edge_face, double(share), s.vertices[i], its, swapped ? its : own, swapped ? own : its};
+      hit = true;
+      if (!earliest) return true;
+    }
+  }
+  return hit;
+}
+
+template <class T>
+bool moving_edges_meet(const Mesh<T>& a, const Mesh<T>& b, const Workspace<T>& w, const Transform<T>& start, const Transform<T>& end,
+                       bool earliest, Contact& contact, Counts& counts) {
+  bool hit = false;
+  for (std::size_t i = 0; i < w.a.edges.size(); ++i) {
+    const auto& e = a.edges[w.a.edges[i]];
+    const Vec3<T> p = start(a.vertices[e[0]]), q = start(a.vertices[e[1]]);
+    const Vec3<T> dp = end(a.vertices[e[0]]) - p, dq = end(a.vertices[e[1]]) - q;
+    for (std::size_t j = 0; j < w.b.edges.size(); ++j) {
+      const auto& f = b.edges[w.b.edges[j]];
+      ++counts.edge_pairs;
+      const T share = edges_cross(p, q, dp, dq, b.vertices[f[0]], b.vertices[f[1]]);
+      if (share < 0 || !(share < contact.share)) continue;
+      contact = {Found::edge_edge, double(share), w.a.edges[i], w.b.edges[j], w.a.edge_face[i], w.b.edge_face[j]};
+      hit = true;
+      if (!earliest) return true;
+    }
+  }
+  return hit;
+}
+
+// Signed measure that vanishes when the features of the contact meet: a vertex in the plane of a face, two edges in one plane.
+template <class T>
+double measure(const Mesh<T>& a, const Mesh<T>& b, const Contact& c, const Transform<double>& a_to_b) {
+  const auto vertex = [](const Mesh<T>& m, int v) { return Vec3<double>(m.vertices[v]); };
+  if (c.found == Found::edge_edge) {
+    const auto& e = a.edges[c.moving];
+    const auto& f = b.edges[c.fixed];
+    const Vec3<double> p = a_to_b(vertex(a, e[0])), q = a_to_b(vertex(a, e[1])), s = vertex(b, f[0]);
+    return triple(q - p, vertex(b, f[1]) - s, p - s);
+  }
+  const bool swapped = c.found == Found::face_edge;
+  const Mesh<T>&moved = swapped ? b : a, &still = swapped ? a : b;
+  const auto& f = still.faces[c.fixed];
+  const Vec3<double> o = vertex(still, f[0]), n = cross(vertex(still, f[1]) - o, vertex(still, f[2]) - o), v = vertex(moved, c.moving);
+  return dot(n, (swapped ? a_to_b.inverse()(v) : a_to_b(v)) - o);
+}
+
+// The velocity estimate, put on the real motion: the time in the window at which the features that met on the chords meet on
+// their true paths. Regula falsi in the Illinois form, which keeps a bracket; the chord's own time where there is none (two
+// edges that pass one another and come back).
+template <class T>
+double velocity_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& w, const Contact& c) {
+  const double guess = w.at(c.share);
+  if (!track.turns()) return guess;
+  const auto f = [&](double t) { return measure(a, b, c, track.at(t)); };
+  double lo = w.t0, hi = w.t1, flo = f(lo), fhi = f(hi);
+  if (flo == 0) return lo;
+  if ((flo > 0) == (fhi > 0)) return guess;
+  double t = guess;
+  int side = 0;
+  for (int i = 0; i < 60 && hi - lo > 4e-16 * hi; ++i) {
+    const double ft = f(t);
+    if (ft == 0) return t;
+    if ((ft > 0) == (flo > 0)) {
+      lo = t, flo = ft;
+      if (side == 1) fhi /= 2;
+      side = 1;
+    } else {
+      hi = t, fhi = ft;
+      if (side == 2) flo /= 2;
+      side = 2;
+    }
+    const double next = (flo * hi - fhi * lo) / (flo - fhi);
+    if (next == t) break;
+    t = next > lo && next < hi ? next : (lo + hi) / 2;
+  }
+  return t;
+}
+
+// Steps 4 (and its repairs) over a window, on the selections made.
+template <class T>
+bool features_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& start, const Transform<double>& end, const Options& o,
+                   T scale, Workspace<T>& w, Contact& contact, Counts& counts) {
+  const Transform<T> s(start), e(end);
+  bool hit = virtual_edges_meet(a, w.a, s, e, w.b, scale, false, o.earliest, contact, counts);
+  if (hit && !o.earliest) return true;
+  if (o.both_vertices) {
+    for (std::size_t i = 0; i < w.a.near.size(); ++i) w.a.triangle[i] = a.triangle(w.a.near[i].face);
+    hit |= virtual_edges_meet(b, w.b, s.inverse(), e.inverse(), w.a, scale, true, o.earliest, contact, counts);
+    if (hit && !o.earliest) return true;
+  }
+  if (o.edge_edge) hit |= moving_edges_meet(a, b, w, s, e, o.earliest, contact, counts);
+  return hit;
+}
+
+template <class T>
+bool surfaces_meet(const Mesh<T>& a, const Transform<double>& pose, Workspace<T>& w, T scale, Answer& answer) {
+  place(a, Transform<T>(pose), w.a);
+  return faces_meet(w.a, w.b, scale, answer);
+}
+
+// Halves the window, testing the first half each time, with all tests of the sweep.
+template <class T>
+double bisection_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, const Options& o, T scale,
+                      Workspace<T>& w, Counts& counts) {
+  double lo = window.t0, hi = window.t1;
+  Transform<double> start = window.start;
+  for (int i = 0; i < o.iterations; ++i) {
+    const double mid = (lo + hi) / 2;
+    const Transform<double> middle = track.at(mid);
+    ++counts.steps;
+    Contact ignored;
+    Answer there;
+    const bool hit = features_meet(a, b, start, middle, o, scale, w, ignored, there.counts) || surfaces_meet(a, middle, w, scale, there);
+    counts.add(there.counts);
+    if (hit) {
+      hi = mid;
+    } else {
+      lo = mid, start = middle;
+    }
+  }
+  return hi;
+}
+
+// Selections for a window: at its start, or also at its end, or also where the centres pass closest.
+template <class T>
+void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, const Options& o, Workspace<T>& w,
+                Counts& counts) {
+  double times[3] = {window.t0, window.t1, window.t1};
+  const int n = o.selections < 3 ? o.selections : 3;
+  double gap = n == 1 ? window.t1 - window.t0 : (window.t1 - window.t0) / 2;  // farthest any time is from one of `times`
+  const Vec3<double> ca(a.centre), cb(b.centre);
+  if (n == 3) {
+    const Vec3<double> from = track.between(ca, cb, window.t0), step = track.between(ca, cb, window.t1) - from;
+    const double along = dot(step, step), share = along > 0 ? -dot(from, step) / along : 0;
+    times[1] = window.at(std::fmin(1.0, std::fmax(0.0, share)));
+    gap = std::fmax(times[1] - window.t0, window.t1 - times[1]) / 2;
+  }
+  Transform<double> pose[3];
+  Vec3<T> point[3];
+  for (int i = 0; i < n; ++i) {
+    pose[i] = times[i] == window.t0 ? window.start : times[i] == window.t1 ? window.end : track.at(times[i]);
+    point[i] = Vec3<T>(pose[i].inverse()(cb));
+  }
+  T reach_a = b.radius, reach_b = 0;
+  double far = 0;
+  if (o.adaptive_k) {
+    const Vec3<double> d = track.a.motion.displacement - track.b.motion.displacement;
+    far = length(window.start.p) + length(d) * (window.t1 - window.t0);
+    reach_a += T(gap * track.speed(0, length(cb), far));
+  }
+  select(a, point, n, o, reach_a, w, w.a, counts);
+  if (o.adaptive_k) reach_b = w.a.radius + T(gap * track.speed(length(Vec3<double>(w.a.centre)), 0, far));
+  for (int i = 0; i < n; ++i) point[i] = Vec3<T>(pose[i](Vec3<double>(w.a.centre)));
+  select(b, point, n, o, reach_b, w, w.b, counts);
+}
+
+// How many parts the step is cut into: one, or with `arc_tolerance` so many that no vertex strays from its chord by more.
+template <class T>
+int parts(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o) {
+  constexpr double most = 65536;  // 100 turns at a tolerance of 1e-4 take 22,000
+  if (!(o.arc_tolerance > 0) || !track.turns()) return 1;
+  const double angle = std::abs(track.a.motion.angle) + std::abs(track.b.motion.angle);
+  const double reach = track.b.turns() ? double(a.extent) + b.extent + length(track.a.p - track.b.p) : double(a.extent);
+  const double n = std::ceil(angle * std::sqrt(reach / (8 * o.arc_tolerance * a.radius)));
+  return int(std::fmax(1.0, std::fmin(n, most)));
+}
+
+// The virtual edges and the end of one window, on selections of its own; the start too where nothing was tested before it.
+template <class T>
+bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, bool first, const Options& o,
+                  Workspace<T>& w, Answer& answer) {
+  Counts& counts = answer.counts;
+  const T scale = std::fmax(scale_of(a, b, Vec3<T>(window.start.p)), scale_of(a, b, Vec3<T>(window.end.p)));
+  select_for(a, b, track, window, o, w, counts);
+  place(b, w.b);
+  list_vertices(a, w, w.a);
+  if (o.both_vertices) list_vertices(b, w, w.b);
+  if (o.edge_edge) list_edges(a, w, w.a), list_edges(b, w, w.b);
+  const auto at_start = [&] {
+    if (!first || !surfaces_meet(a, window.start, w, scale, answer)) return false;
+    answer.found = Found::start;
+    if (o.earliest) answer.time = window.t0;
+    return true;
+  };
+  if (o.earliest && at_start()) return true;
+  Contact contact;
+  if (features_meet(a, b, window.start, window.end, o, scale, w, contact, counts)) {
+    answer.found = contact.found, answer.face_a = contact.face_a, answer.face_b = contact.face_b;
+    if (o.toi == Toi::velocity) answer.time = velocity_time(a, b, track, window, contact);
+    if (o.toi == Toi::bisection) answer.time = bisection_time(a, b, track, window, o, scale, w, counts);
+    return true;
+  }
+  if (!o.earliest && at_start()) return true;
+  if (!surfaces_meet(a, window.end, w, scale, answer)) return false;
+  answer.found = Found::end;
+  if (o.earliest) answer.time = window.t1;
+  return true;
+}
+
+}  // namespace detail
+
+// As `overlap`, over the step t in [0, 1] of `track`.
+template <class T>
+Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o, Workspace<T>& w) {
+  Answer answer;
+  const auto slack = [&](const Transform<double>& pose) { return rounding<T> * (length(pose.p) + a.extent + b.extent); };
+  detail::Window<T> window{0, 1, track.at(0), track.at(1)};
+  ++answer.counts.spheres;
+  const Vec3<double> ca(a.centre), cb(b.centre);
+  const bool rejected = o.broad == Broad::start
+                            ? detail::spheres_apart(track.between(ca, cb, 0), double(a.radius) + double(b.radius) + slack(window.start))
+                            : detail::swept_spheres_apart(a, b, track, 0, 1, slack(window.start) + slack(window.end));
+  if (rejected) return answer;
+  if (detail::holds(a, b, Transform<T>(window.start), o, answer)) {
+    answer.hit = true, answer.time = 0;
+    return answer;
+  }
+  const int n = detail::parts(a, b, track, o);
+  const Transform<double> last = window.end;
+  for (int i = 0; i < n && !answer.hit; ++i) {
+    window = {double(i) / n, double(i + 1) / n, i ? window.end : window.start, i + 1 < n ? track.at(double(i + 1) / n) : last};
+    if (n > 1) {
+      ++answer.counts.spheres;
+      if (i && detail::swept_spheres_apart(a, b, track, window.t0, window.t1, slack(window.start) + slack(window.end))) continue;
+    }
+    ++answer.counts.steps;
+    answer.hit = detail::sweep_window(a, b, track, window, i == 0, o, w, answer);
+  }
+  if (!answer.hit && detail::holds(a, b, Transform<T>(last), o, answer)) {
+    answer.hit = true;
+    if (o.earliest) answer.time = 1;
+  }
+  return answer;
+}
+
+}  // namespace ofg
