@@ -11,6 +11,10 @@ from ofg import QUESTIONS, Query
 from .contract import Method, Unsupported, Verdict
 
 
+#: options that the article does not have; `broad` and `concave` are readings of it
+_REPAIRED = frozenset({"selection", "adaptive_k", "both_vertices", "edge_edge", "selections", "arc_tolerance", "containment", "earliest"})
+
+
 class OpposingFaceGeometry(Method):
     """As written in the article. With `repairs` (see ofg.REPAIRS: "all", "all-but-X", "X", "X+Y") as mended.
 
@@ -33,14 +37,26 @@ class OpposingFaceGeometry(Method):
         "iterations": 20, "precision": "double",
     }
 
+    def __init__(self, **parameters):
+        super().__init__(**parameters)
+        mended = {name for name, value in self._options().items() if name in _REPAIRED and value != type(self).parameters[name]}
+        self.solid = "containment" in mended
+        if mended:
+            self.configuration = "best effort" if self.parameters["repairs"] == "all" else "alternative"
+
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
-        given = {name: value for name, value in self.parameters.items() if value != type(self).parameters[name]}
-        options = {**ofg.repair_options(given.pop("repairs", "none")), **given, "k": _faces(self.parameters["k"])}
+        options = self._options()
         if options.get("concave") != "undivided":
             query = Query(query.question, _pieces(query.a), _pieces(query.b), query.pose_a, query.pose_b, query.motion)
         ask = ofg.prepare(query, **options)
         return lambda: Verdict(*ask())
+
+
+    def _options(self) -> dict:
+        """What the core is asked with: the repairs, overruled by what is given by name."""
+        given = {name: value for name, value in self.parameters.items() if value != type(self).parameters[name]}
+        return {**ofg.repair_options(given.pop("repairs", "none")), **given, "k": _faces(self.parameters["k"])}
 
 
 def _faces(k) -> int:
