@@ -143,7 +143,8 @@ def _feature(mesh: trimesh.Trimesh, feature: str, rng):
         return normal, rng.normal(size=3), weights @ mesh.vertices[mesh.faces[face]], np.flatnonzero(heights > -GROUND)
     if feature == "edge":
         sharp = np.flatnonzero(mesh.face_adjacency_angles > 0.02)
-        pick = sharp[rng.integers(len(sharp))]
+        lengths = np.linalg.norm(np.diff(mesh.vertices[mesh.face_adjacency_edges[sharp]], axis=1)[:, 0], axis=1)
+        pick = rng.choice(sharp, p=lengths / lengths.sum())
         members = mesh.face_adjacency_edges[pick]
         start, end = mesh.vertices[members]
         share = rng.uniform(0.3, 0.7)

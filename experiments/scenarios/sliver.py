@@ -1,4 +1,4 @@
-"""Needles and plates that nearly touch: a gap of half the thickness, either way, between bodies of extreme aspect."""
+"""Needles and plates that nearly touch or just meet: bodies of extreme aspect, a gap of half their thickness or less."""
 
 from experiments.scenario import Draft, Scenario
 from experiments.shapes import any_convex, plate, rod
@@ -19,7 +19,8 @@ def generate(rng, level) -> Draft:
     a, b = (thin[word]() for word in kind.split(" on "))
     s = seat(rng, a, b, PAIRS[kind])
     s.tags["kind"] = kind
-    gap = rng.choice([-0.5, 0.5]) * 2 / level
+    thickness = 2 / level
+    gap = rng.choice([-1, 1]) * rng.choice([0.5, 0.05, 0.005]) * thickness
     return s.draft(gap * s.normal, [0, 0, 0])
 
 
