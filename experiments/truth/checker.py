@@ -117,7 +117,7 @@ def clear(pair, cert, start, end, gap):
     while stack:
         (segments, split), ra, rb, s, first = stack.pop()
         for e, frame, *n in segments:
-            _require(s <= e <= end and len(n) == 3 and frame in ("W", "A"), "segments are out of order")
+            _require(s <= e and len(n) == 3 and frame in ("W", "A"), "segments are out of order")
             A, B = _points(pair.a, orders[0][slice(*ra)]), _points(pair.b, orders[1][slice(*rb)])
             _require(leaf(pair, A, B, s, e, frame, n, gap), f"plane {n} does not separate elements {ra}, {rb} over [{s}, {e}]")
             s, first = e, False

@@ -13,57 +13,69 @@ from ofg import Body, Query
 from . import _native
 from .label import Truth
 
-EFFORT = 2000  #: segments per pair of elements and sweep before the prover gives up
+EFFORT = 1e8  #: vertices visited per case before the prover gives up
 _solids: WeakKeyDictionary[Body, _native.Solid] = WeakKeyDictionary()
 
 
 def prove(query: Query) -> Truth:
     """Propose a label and its certificate. Never raises for a valid query and never hangs: "uncertain" with a reason otherwise."""
-    if any(body.kind != "convex" for body in (query.a, query.b)):
-        return uncertain("the prover does not know unions and meshes yet")
     a, b = _solid(query.a), _solid(query.b)
     m = query.motion
     pair = _native.Pair(query.pose_a.quaternion.tolist(), query.pose_a.position.tolist(), query.pose_b.quaternion.tolist(),
                         query.pose_b.position.tolist(), m.displacement.tolist(), m.axis.tolist(), m.angle)
-    origin = query.pose_a.position
     if query.question == "overlap":
-        return _overlap(query, _native.instant(pair, a, b, 0.0), origin)
-    return _sweep(query, _native.sweep(pair, a, b, EFFORT), origin)
+        return _overlap(query, _native.instant(pair, a, b, 0.0, EFFORT))
+    return _sweep(query, _native.sweep(pair, a, b, EFFORT))
 
 
 def uncertain(reason: str) -> Truth:
     return Truth("uncertain", reason=reason)
 
 
-def _overlap(query, found, origin) -> Truth:
+def _overlap(query, found) -> Truth:
     label = found["label"]
     if label == "clear":
-        return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate={"clear": _plane(0.0, found["n"])})
+        return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate={"clear": _apart(query, found["tree"])})
     if label == "hit":
-        return Truth("hit", start="hit", end="hit", gap=-_depth(query, 0.0), certificate={"hit": _inside(found["inside"], origin)})
-    return uncertain("touching: neither a plane nor a common interior point was found in 106 bits")
+        return Truth("hit", start="hit", end="hit", gap=-_depth(query, 0.0), certificate={"hit": _inside(query, found["common"])})
+    if found["spent"]:
+        return uncertain(f"the effort limit of {EFFORT:.0e} vertex visits ran out")
+    return uncertain("touching: neither planes nor a common interior point were found in 106 bits")
 
 
-def _sweep(query, found, origin) -> Truth:
+def _sweep(query, found) -> Truth:
     label, start = found["label"], found["start"]
     if label == "uncertain":
         return uncertain(found["reason"])
-    segments = [[end, frame, *_wide(n)] for end, frame, n in found["segments"]]
-    certificate = {"clear": {"tree": [segments, None]}} if start == "clear" else {}
+    certificate = {"clear": _apart(query, found["tree"])} if start == "clear" else {}
     if label == "clear":
         return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate=certificate)
-    certificate["hit"] = _inside(found["inside"], origin)
+    certificate["hit"] = _inside(query, found["common"])
     t_lo, t_hi, end = found["t_lo"], found["t_hi"], found["end"]
-    if end == "clear":
-        certificate["end_clear"] = _plane(1.0, found["end_n"])
-    if end == "hit":
-        certificate["end_hit"] = _inside(found["end_inside"], origin)
+    if end["label"] == "clear":
+        certificate["end_clear"] = _apart(query, end["tree"])
+    if end["label"] == "hit":
+        certificate["end_hit"] = _inside(query, end["common"])
     depth = max(_depth(query, t) for t in np.linspace(t_hi, 1.0, 17))
-    return Truth("hit", t_lo, t_hi, start, end, -depth, certificate=certificate)
+    return Truth("hit", t_lo, t_hi, start, end["label"], -depth, certificate=certificate)
 
 
-def _plane(t: float, n) -> dict:
-    return {"tree": [[[t, "W", *_wide(n)]], None]}
+def _apart(query, tree) -> dict:
+    apart = {"tree": _tree(tree)}
+    for key, body in (("order_a", query.a), ("order_b", query.b)):
+        order = _solid(body).order
+        if len(order) > 1:
+            apart[key] = order
+    return apart
+
+
+def _tree(node) -> list:
+    segments, split = node
+    segments = [[end, frame, *_wide(n)] for end, frame, n in segments]
+    if split is None:
+        return [segments, None]
+    side, cut, left, right = split
+    return [segments, [side, [cut], [_tree(left), _tree(right)]]]
 
 
 def _wide(n) -> list:
@@ -71,15 +83,18 @@ def _wide(n) -> list:
     return [hi if lo == 0 else str(Fraction(hi) + Fraction(lo)) for hi, lo in zip(n[:3], n[3:])]
 
 
-def _inside(found, origin) -> dict:
+def _inside(query, found) -> dict:
     """The native point is relative to p_A; the certificate's is in the world."""
-    point = [Fraction(hi) + Fraction(lo) + Fraction(o) for hi, lo, o in zip(found["point"][:3], found["point"][3:], origin.tolist())]
+    high, low, origin = found["point"][:3], found["point"][3:], query.pose_a.position.tolist()
+    point = [Fraction(hi) + Fraction(lo) + Fraction(o) for hi, lo, o in zip(high, low, origin)]
     point = [float(x) if Fraction(float(x)) == x else str(x) for x in point]
-    return {"point": point, "a": [0, *found["a"]], "b": [0, *found["b"]]}
+    return {"point": point, **{key: None if found[key][0] < 0 else list(found[key]) for key in ("a", "b")}}
 
 
 def _depth(query: Query, t: float) -> float:
     """Penetration depth at time t over the face normals of both bodies (edge pairs are left out: an estimate from above)."""
+    if query.a.kind != "convex" or query.b.kind != "convex":
+        return nan
     pose = query.motion.pose_at(query.pose_a, float(t))
     a, b = pose.apply(query.a.vertices), query.pose_b.apply(query.b.vertices)
     depth = np.inf
@@ -94,5 +109,8 @@ def _depth(query: Query, t: float) -> float:
 
 def _solid(body: Body) -> _native.Solid:
     if body not in _solids:
-        _solids[body] = _native.Solid([np.ascontiguousarray(p.vertices) for p in body.pieces])
+        if body.kind == "mesh":
+            _solids[body] = _native.Solid.of_mesh(body.vertices, body.faces)
+        else:
+            _solids[body] = _native.Solid.of_pieces([p.vertices for p in body.pieces])
     return _solids[body]

@@ -45,19 +45,31 @@ template <class T> vec<T> transposed(const mat<T>& m, vec<T> v) { return m.r[0] 
 
 using Vertices = std::vector<std::array<double, 3>>;
 
-template <class T> struct Placed {  // r: A's vertices turned by R(q_A); b: B's vertices; x: A's at time t
+template <class T> double largest(const Points<T>& p) {
+    double m = 0;
+    for (auto& v : p) m = std::max(m, double(norm(v)));
+    return m;
+}
+template <class T> Points<T> turned(const Scene<T>& s, const Vertices& A) {  // R(q_A) v
+    Points<T> r;
+    r.reserve(A.size());
+    for (auto& v : A) r.push_back(s.RA * vec<T>{T(v[0]), T(v[1]), T(v[2])});
+    return r;
+}
+template <class T> Points<T> placed(const Scene<T>& s, const Vertices& B) {  // R(q_B) v + p_B - p_A
+    Points<T> b;
+    b.reserve(B.size());
+    for (auto& v : B) b.push_back(s.RB * vec<T>{T(v[0]), T(v[1]), T(v[2])} + s.dp);
+    return b;
+}
+
+template <class T> struct Placed {  // two point sets in a scene; x: A's at time t
     const Scene<T>& scene;
-    Points<T> r, b, x;
-    double reach = 0;
-    double now = -1;
-    Placed(const Scene<T>& s, const Vertices& A, const Vertices& B) : scene(s), x(A.size()) {
-        for (auto& v : A) r.push_back(s.RA * vec<T>{T(v[0]), T(v[1]), T(v[2])});
-        for (auto& v : B) b.push_back(s.RB * vec<T>{T(v[0]), T(v[1]), T(v[2])} + s.dp);
-        for (auto& p : r) reach = std::max(reach, double(norm(p)));
-        double rb = 0;
-        for (auto& p : b) rb = std::max(rb, double(norm(p)));
-        reach += rb + double(norm(s.d));
-    }
+    const Points<T>&r, &b;
+    Points<T> x;
+    double reach, now = -1;
+    Placed(const Scene<T>& s, const Points<T>& r, const Points<T>& b)
+        : scene(s), r(r), b(b), x(r.size()), reach(largest(r) + largest(b) + double(norm(s.d))) {}
     const Points<T>& at(double t) {
         if (t == now) return x;
         auto R = scene.turn(T(t));
@@ -182,16 +194,23 @@ template <class T> std::optional<Inside> inside(const Points<T>& A, const Points
     return std::nullopt;
 }
 
-// March: certified segments from `s` on until the gap falls to `margin` or `end` is reached. Appends to `out`; returns the time
-// reached. `least` gets the smallest distance seen at a segment's start; `steps` is the effort left.
-struct March { double t = 0, least = 1e300, at = 0; bool done = false; bool tired = false; };
+// Work done so far and allowed, in vertices visited (double-double counts 20-fold): the stated limit of effort of a case.
+struct Effort {
+    double done = 0, limit = 0;
+    bool spent() const { return done > limit; }
+};
 
-template <class T> March march(Placed<T>& P, double s, double end, double margin, double floor, int& steps, std::vector<Segment>& out) {
+// March: certified segments from `s` on until the gap falls to `margin` or below `floor`, a step falls below `least_step`, or
+// `end` is reached. Appends to `out`. least: the smallest distance seen, at time `at`.
+struct March { double t = 0, least = 1e300, at = 0; bool done = false; };
+
+template <class T>
+March march(Placed<T>& P, double s, double end, double margin, double floor, double least_step, Effort& effort, std::vector<Segment>& out) {
     March m;
     m.t = s;
     vec<T> guess = P.b[0] - P.at(s)[0];
-    while (true) {
-        if (steps-- <= 0) { m.tired = true; return m; }
+    for (int step = 0; step < 2000 && !effort.spent(); ++step) {
+        effort.done += double(P.r.size() + P.b.size()) * (std::is_same_v<T, double> ? 1 : 20);
         const auto& x = P.at(m.t);
         auto g = gjk<T>(x, P.b, guess, P.reach, 1e-6);
         if (g.status != Status::Apart) return m;
@@ -208,6 +227,7 @@ template <class T> March march(Placed<T>& P, double s, double end, double margin
         }
         char frame;
         double h = double(lasts(P, m.t, end, n, T(margin), frame));
+        if (0.999 * h < least_step && m.t + h < end) return m;
         auto own = frame == 'A' ? transposed(P.scene.turn(T(m.t)), n) : n;
         double e = m.t;
         for (double f : {8.0, 3.0, 1.4, 0.999, 0.9}) {
@@ -219,6 +239,7 @@ template <class T> March march(Placed<T>& P, double s, double end, double margin
         m.t = e;
         if (e >= end) { m.done = true; return m; }
     }
+    return m;
 }
 
 }  // namespace truth

@@ -13,53 +13,65 @@ using namespace truth;
 
 using Array = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
-struct Solid {
-    std::vector<Vertices> elements;
-    explicit Solid(const std::vector<Array>& pieces) {
-        for (auto& p : pieces) {
-            Vertices v(p.shape(0));
-            for (size_t i = 0; i < v.size(); ++i) v[i] = {p(i, 0), p(i, 1), p(i, 2)};
-            elements.push_back(std::move(v));
-        }
-    }
-};
+static Vertices vertices_of(const Array& p) {
+    Vertices v(p.shape(0));
+    for (size_t i = 0; i < v.size(); ++i) v[i] = {p(i, 0), p(i, 1), p(i, 2)};
+    return v;
+}
 
 static nb::tuple pack(const Wide& w) { return nb::make_tuple(w.hi[0], w.hi[1], w.hi[2], w.lo[0], w.lo[1], w.lo[2]); }
-static nb::dict pack(const Inside& in) {
+static nb::dict pack(const Common& c) {
     nb::dict out;
-    out["point"] = pack(in.point), out["a"] = in.a, out["b"] = in.b;
+    out["point"] = pack(c.point);
+    out["a"] = nb::make_tuple(c.piece_a, c.a[0], c.a[1], c.a[2], c.a[3]);
+    out["b"] = nb::make_tuple(c.piece_b, c.b[0], c.b[1], c.b[2], c.b[3]);
+    return out;
+}
+static nb::tuple pack(const Tree& tree, int id = 0) {  // (segments, None or (side, cut, left, right))
+    auto& node = tree.nodes[id];
+    nb::list segments;
+    for (auto& s : node.segments) segments.append(nb::make_tuple(s.end, std::string(1, s.frame), pack(s.n)));
+    if (node.left < 0) return nb::make_tuple(segments, nb::none());
+    return nb::make_tuple(segments, nb::make_tuple(std::string(1, node.side), node.cut, pack(tree, node.left), pack(tree, node.right)));
+}
+static nb::dict pack(const Instant& i) {
+    nb::dict out;
+    out["label"] = i.label;
+    if (i.label == "clear") out["gap"] = i.gap, out["tree"] = pack(i.tree);
+    if (i.label == "hit") out["common"] = pack(i.common);
     return out;
 }
 
 NB_MODULE(_native, m) {
-    nb::class_<Solid>(m, "Solid").def(nb::init<std::vector<Array>>());
+    nb::class_<Solid>(m, "Solid")
+        .def_static("of_pieces", [](const std::vector<Array>& pieces) {
+            std::vector<Vertices> v;
+            for (auto& p : pieces) v.push_back(vertices_of(p));
+            return Solid(std::move(v));
+        })
+        .def_static("of_mesh", [](const Array& v, nb::ndarray<const int, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu> f) {
+            std::vector<std::array<int, 3>> faces(f.shape(0));
+            for (size_t i = 0; i < faces.size(); ++i) faces[i] = {f(i, 0), f(i, 1), f(i, 2)};
+            return Solid(vertices_of(v), std::move(faces));
+        })
+        .def_ro("order", &Solid::order);
     nb::class_<Pair>(m, "Pair").def(
         "__init__", [](Pair* self, std::array<double, 4> qa, std::array<double, 3> pa, std::array<double, 4> qb, std::array<double, 3> pb,
                        std::array<double, 3> d, std::array<double, 3> k, double theta) { new (self) Pair{qa, qb, pa, pb, d, k, theta}; });
-    m.def("instant", [](const Pair& pair, const Solid& A, const Solid& B, double t) {
-        Prover prover(pair, A.elements.at(0), B.elements.at(0));
-        Instant i = prover.at(t);
-        nb::dict out;
-        out["label"] = i.label;
-        if (i.label == "clear") out["gap"] = i.gap, out["n"] = pack(i.n);
-        if (i.label == "hit") out["inside"] = pack(i.in);
+    m.def("instant", [](const Pair& pair, const Solid& A, const Solid& B, double t, double limit) {
+        Prover prover(pair, A, B, limit);
+        auto out = pack(prover.at(t));
+        out["spent"] = prover.effort().spent();
         return out;
     });
-    m.def("sweep", [](const Pair& pair, const Solid& A, const Solid& B, int effort) {
-        Prover prover(pair, A.elements.at(0), B.elements.at(0));
-        Proof p = prover.sweep(effort);
+    m.def("sweep", [](const Pair& pair, const Solid& A, const Solid& B, double limit) {
+        Prover prover(pair, A, B, limit);
+        Proof p = prover.sweep();
         nb::dict out;
-        out["label"] = p.label, out["reason"] = p.reason, out["start"] = p.start, out["steps"] = p.steps;
+        out["label"] = p.label, out["reason"] = p.reason, out["start"] = p.start, out["effort"] = prover.effort().done;
         out["t_lo"] = p.t_lo, out["t_hi"] = p.t_hi, out["gap"] = p.gap;
-        nb::list segments;
-        for (auto& s : p.segments) segments.append(nb::make_tuple(s.end, std::string(1, s.frame), pack(s.n)));
-        out["segments"] = segments;
-        if (p.label == "hit") {
-            out["inside"] = pack(p.in);
-            out["end"] = p.end.label;
-            if (p.end.label == "clear") out["end_n"] = pack(p.end.n);
-            if (p.end.label == "hit") out["end_inside"] = pack(p.end.in);
-        }
+        if (p.label != "uncertain" && p.start == "clear") out["tree"] = pack(p.tree);
+        if (p.label == "hit") out["common"] = pack(p.common), out["end"] = pack(p.end);
         return out;
     });
 }

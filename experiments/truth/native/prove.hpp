@@ -1,149 +1,412 @@
-// What is proposed for a convex pair: at one instant, and over the step.
+// What is proposed for two solids: at one instant, and over the step.
 #pragma once
 #include <string>
 
-#include "convex.hpp"
+#include "solid.hpp"
 
 namespace truth {
 
-struct Instant { std::string label = "uncertain"; double gap = 0; Wide n{}; Inside in{}; };
+struct Tree {  // node 0 is the root; children split the elements of `side` at `cut`
+    struct Node { std::vector<Segment> segments; char side = 0; int cut = 0, left = -1, right = -1; };
+    std::vector<Node> nodes;
+};
 
-template <class T> bool settle(Placed<T>& P, double t, Instant& out) {
-    const auto& x = P.at(t);
-    auto g = gjk<T>(x, P.b, P.b[0] - x[0], P.reach, 1e-9);
-    if (g.status == Status::Apart) {
-        double gap = double(norm(g.v));
-        auto n = g.v * T(1 / gap);
-        double trust = 32 * P.blur();
-        if (!(gap > trust) || !leaf(P, t, t, 'W', n, T(0.5 * trust))) return false;
-        double sure = double(dot(n, P.b[support(P.b, -n)]) - dot(n, x[support(x, n)])) / double(norm(n)) - P.blur();
-        out.label = "clear", out.gap = sure * (1 - 1e-9), out.n = wide(n);
-        return true;
-    }
-    auto w = inside<T>(x, P.b, P.reach);
-    if (!w) return false;
-    out.label = "hit", out.in = *w;
-    return true;
-}
+struct Common {  // a point inside both at some time, relative to p_A; piece and tetrahedron of each (piece -1: a mesh)
+    Wide point{};
+    int piece_a = -1, piece_b = -1;
+    std::array<int, 4> a{}, b{};
+};
+
+struct Instant {
+    std::string label = "uncertain";
+    double gap = 0, depth = 0;
+    Tree tree;
+    Common common;
+};
 
 struct Proof {
     std::string label = "uncertain", reason, start = "uncertain";
-    double t_lo = 0, t_hi = 0, gap = 0;
-    std::vector<Segment> segments;
-    Inside in{};
+    double t_lo = 0, t_hi = 0, gap = 0, depth = 0;
+    Tree tree;
+    Common common;
     Instant end;
-    int steps = 0;
 };
 
 class Prover {
   public:
-    Prover(const Pair& pair, const Vertices& A, const Vertices& B)
-        : fine_(pair), coarse_(pair), A_(A), B_(B), quick_(coarse_, A, B), theta_(pair.theta) {}
+    Prover(const Pair& pair, const Solid& A, const Solid& B, double limit)
+        : A_(A), B_(B), sd_(pair), sq_(pair), theta_(pair.theta), ra_(A.nodes.size()), rb_(B.nodes.size()) {
+        effort_.limit = limit;
+        blur_ = quick(0, 0).blur();
+    }
+    const Effort& effort() const { return effort_; }
 
     Instant at(double t) {
-        Instant i;
-        if (!settle(quick_, t, i)) settle(slow(), t, i);
-        return i;
+        Instant out;
+        if (single() && !A_.mesh && !B_.mesh) {
+            if (!settle(quick(0, 0), t, out)) { Exact e(*this, 0, 0); settle(e.placed, t, out); }
+            return out;
+        }
+        double apart = distance(t);
+        if (apart > 1e3 * blur_)
+            for (double share : {0.99, 0.5}) {
+                Cover c = cover(t, t, share * apart, nullptr);
+                if (!c.stuck.empty()) continue;
+                out.label = contained(t, out.common) ? "hit" : "clear";
+                out.gap = share * apart, out.tree = std::move(c.tree);
+                return out;
+            }
+        Cover c = cover(t, t, 0, &out.common);
+        if (c.found) out.label = "hit";
+        else if (c.stuck.empty()) {
+            out.label = contained(t, out.common) ? "hit" : "clear";
+            out.tree = std::move(c.tree);
+        } else if (anywhere(t, out.common)) out.label = "hit";
+        return out;
     }
 
-    Proof sweep(int effort) {
+    Proof sweep() {
         Proof p;
         Instant start = at(0);
         p.start = start.label;
-        if (start.label == "hit") { p.label = "hit"; p.in = start.in; p.end = at(1); return p; }
-        if (start.label == "uncertain") { p.reason = "touching at the start"; return p; }
-        if (theta_ == 0 && swept_clear(p)) return p;
-        int steps = effort;
-        March m = run(0, 1, 0, steps, p.segments);
-        p.steps = effort - steps;
-        if (m.done) { clear_with_gap(p, m, effort); return p; }
-        if (m.tired) { p.reason = "effort limit of " + std::to_string(effort) + " segments"; return p; }
-        p.t_lo = m.t;
-        if (theta_ == 0) straighten(p);
+        if (start.label == "hit") { p.label = "hit", p.common = start.common, p.end = at(1); return p; }
+        if (start.label == "uncertain") { p.reason = why("touching at the start"); return p; }
+        Cover c = cover(0, 1, 0, nullptr);
+        if (effort_.spent()) { p.reason = why(""); return p; }
+        p.tree = std::move(c.tree);
+        if (c.stuck.empty()) { p.label = "clear"; widen(p, c); return p; }
+        p.t_lo = c.until;
         for (double rel : {2e-13, 6e-13, 1e-11, 1e-9, 1e-6}) {
-            p.t_hi = std::min(1.0, m.t * (1 + rel));
-            if (!(p.t_hi > m.t)) break;
-            Instant hit = at(p.t_hi);
-            if (hit.label != "hit") continue;
-            p.label = "hit", p.in = hit.in, p.end = at(1);
+            p.t_hi = std::min(1.0, p.t_lo * (1 + rel));
+            if (!(p.t_hi > p.t_lo)) break;
+            if (!meets_at(p.t_hi, c, p.common)) continue;
+            p.label = "hit", p.end = at(1);
             return p;
         }
-        p.reason = "touching without overlap that could be certified, at t = " + std::to_string(m.t);
+        p.reason = why("touching without overlap that could be certified, at t = " + std::to_string(p.t_lo));
         return p;
     }
 
   private:
-    Scene<dd> fine_;
-    Scene<double> coarse_;
-    const Vertices &A_, &B_;
-    Placed<double> quick_;
-    std::optional<Placed<dd>> slow_;
-    double theta_;
+    struct Stuck { int a, b; double t; };
+    struct Cover { Tree tree; std::vector<Stuck> stuck; double until = 1, least = 1e300, at = 0; bool found = false; };
+    struct Exact {  // one pair of tree nodes in double-double
+        Points<dd> r, b;
+        Placed<dd> placed;
+        Exact(const Prover& p, int na, int nb) : r(turned(p.sq_, p.A_.nodes[na].v)), b(truth::placed(p.sq_, p.B_.nodes[nb].v)), placed(p.sq_, r, b) {}
+    };
 
-    Placed<dd>& slow() {
-        if (!slow_) slow_.emplace(fine_, A_, B_);
-        return *slow_;
+    const Solid &A_, &B_;
+    Scene<double> sd_;
+    Scene<dd> sq_;
+    double theta_, blur_;
+    Effort effort_;
+    std::vector<Points<double>> ra_, rb_;
+
+    bool single() const { return A_.elements.size() == 1 && B_.elements.size() == 1; }
+    std::string why(std::string otherwise) const {
+        return effort_.spent() ? "the effort limit of " + std::to_string((long long)effort_.limit) + " vertex visits ran out" : otherwise;
     }
-
-    March run(double s, double end, double margin, int& steps, std::vector<Segment>& out) {
-        double floor = 1e4 * quick_.blur();
-        March m = march(quick_, s, end, margin, floor, steps, out);
-        if (m.done || m.tired) return m;
-        March f = march(slow(), m.t, end, margin, 1e3 * slow().blur(), steps, out);
-        if (m.least < f.least) f.least = m.least, f.at = m.at;
-        return f;
+    Placed<double> quick(int na, int nb) {
+        if (ra_[na].empty()) ra_[na] = turned(sd_, A_.nodes[na].v);
+        if (rb_[nb].empty()) rb_[nb] = truth::placed(sd_, B_.nodes[nb].v);
+        return {sd_, ra_[na], rb_[nb]};
     }
+    bool leaf_pair(int na, int nb) const { return A_.nodes[na].left < 0 && B_.nodes[nb].left < 0; }
 
-    template <class T> bool swept_plane(Placed<T>& P, Proof& p) {  // translation: one plane for the whole step
-        Points<T> both = P.at(0);
-        auto e = P.at(1);
-        both.insert(both.end(), e.begin(), e.end());
-        auto g = gjk<T>(both, P.b, P.b[0] - both[0], P.reach, 1e-9);
-        if (g.status != Status::Apart) return false;
-        double gap = double(norm(g.v)), trust = 32 * P.blur();
-        auto n = g.v * T(1 / gap);
-        double sure = double(dot(n, P.b[support(P.b, -n)]) - dot(n, both[support(both, n)])) / double(norm(n)) - P.blur();
-        if (!(sure > trust)) return false;
-        p.label = "clear", p.gap = sure * (1 - 1e-9), p.segments = {{1.0, 'W', wide(n)}};
+    template <class T> bool settle(Placed<T>&& P, double t, Instant& out) { return settle(P, t, out); }
+    template <class T> bool settle(Placed<T>& P, double t, Instant& out) {  // one convex pair
+        const auto& x = P.at(t);
+        auto g = gjk<T>(x, P.b, P.b[0] - x[0], P.reach, 1e-9);
+        if (g.status == Status::Apart) {
+            double gap = double(norm(g.v));
+            auto n = g.v * T(1 / gap);
+            double trust = 32 * P.blur();
+            if (!(gap > trust) || !leaf(P, t, t, 'W', n, T(0.5 * trust))) return false;
+            double sure = double(dot(n, P.b[support(P.b, -n)]) - dot(n, x[support(x, n)])) / double(norm(n)) - P.blur();
+            out.label = "clear", out.gap = sure * (1 - 1e-9);
+            out.tree.nodes.push_back({{{t, 'W', wide(n)}}});
+            return true;
+        }
+        auto w = inside<T>(x, P.b, P.reach);
+        if (!w) return false;
+        out.label = "hit", out.common = {w->point, 0, 0, w->a, w->b};
         return true;
     }
-    bool swept_clear(Proof& p) { return swept_plane(quick_, p) || swept_plane(slow(), p); }
 
-    void straighten(Proof& p) {  // translation: the last plane alone usually serves from the start
-        if (p.segments.size() < 2) return;
-        auto last = p.segments.back();
-        if (leaf(slow(), 0, p.t_lo, 'W', unwide(last.n), dd(0))) p.segments = {last};
+    double sphere_gap(int na, int nb, double t) {  // of the groups' bounding spheres: the order of visits
+        auto c = A_.nodes[na].centre;
+        vec<double> x = sd_.turn(t) * (sd_.RA * vec<double>{c[0], c[1], c[2]}) + sd_.d * t;
+        c = B_.nodes[nb].centre;
+        vec<double> y = sd_.RB * vec<double>{c[0], c[1], c[2]} + sd_.dp;
+        return norm(x - y) - A_.nodes[na].radius - B_.nodes[nb].radius;
+    }
+    bool split_a(int na, int nb) const {
+        if (A_.nodes[na].left < 0) return false;
+        return B_.nodes[nb].left < 0 || A_.nodes[na].radius >= B_.nodes[nb].radius;
     }
 
-    double nearest(double lo, double hi) {  // golden section on the distance
-        auto gap = [&](double t) {
-            const auto& x = quick_.at(t);
-            auto g = gjk<double>(x, quick_.b, quick_.b[0] - x[0], quick_.reach, 1e-6);
-            return g.status == Status::Apart ? norm(g.v) : 0.0;
+    // Distance at t between the elements, in double; 0 where a pair meets.
+    double distance(double t) {
+        double best = 1e300;
+        nearest(0, 0, t, best);
+        return best;
+    }
+    void nearest(int na, int nb, double t, double& best) {
+        if (best <= 0 || effort_.spent() || sphere_gap(na, nb, t) >= best) return;
+        auto P = quick(na, nb);
+        effort_.done += double(P.r.size() + P.b.size());
+        const auto& x = P.at(t);
+        auto g = gjk<double>(x, P.b, P.b[0] - x[0], P.reach, 1e-6);
+        double d = g.status == Status::Apart ? norm(g.v) : 0;
+        if (d >= best) return;
+        if (leaf_pair(na, nb)) { best = d; return; }
+        auto [c1, c2] = children(na, nb, t);
+        nearest(c1.first, c1.second, t, best);
+        nearest(c2.first, c2.second, t, best);
+    }
+    std::pair<std::pair<int, int>, std::pair<int, int>> children(int na, int nb, double t) {  // nearer first
+        std::pair<int, int> c1{na, nb}, c2{na, nb};
+        if (split_a(na, nb)) c1.first = A_.nodes[na].left, c2.first = A_.nodes[na].right;
+        else c1.second = B_.nodes[nb].left, c2.second = B_.nodes[nb].right;
+        if (sphere_gap(c2.first, c2.second, t) < sphere_gap(c1.first, c1.second, t)) std::swap(c1, c2);
+        return {c1, c2};
+    }
+
+    // A tree of planes that keeps all elements apart by `margin` from s until `end`, or until the first pair gets stuck. With
+    // `common` (an instant): stop as soon as a stuck pair yields a common interior point.
+    Cover cover(double s, double end, double margin, Common* common) {
+        Cover c;
+        c.until = end;
+        c.tree.nodes.reserve(64);
+        extend(c, 0, 0, s, margin, common);
+        return c;
+    }
+    int extend(Cover& c, int na, int nb, double s, double margin, Common* common) {
+        int id = int(c.tree.nodes.size());
+        c.tree.nodes.emplace_back();
+        std::vector<Segment> segments;
+        bool instant = s >= c.until, last = leaf_pair(na, nb);
+        double from = s;
+        auto P = quick(na, nb);
+        bool done = !instant && theta_ == 0 && straight(P, s, c.until, margin, segments);
+        if (!done) {
+            double floor = (last ? 1e4 : 64) * P.blur();
+            March m = march(P, s, c.until, margin, floor, last ? 0 : 0.03 * (c.until - s), effort_, segments);
+            if (m.least < c.least) c.least = m.least, c.at = m.at;
+            done = m.done;
+            s = m.t;
+        }
+        if (!done && last) {
+            Exact e(*this, na, nb);
+            March m = march(e.placed, s, c.until, margin, 1e3 * e.placed.blur(), 0, effort_, segments);
+            if (m.least < c.least) c.least = m.least, c.at = m.at;
+            if (theta_ == 0 && segments.size() > 1 && leaf(e.placed, from, m.t, 'W', unwide(segments.back().n), dd(0)))
+                segments = {segments.back()};
+            if (!m.done) {
+                c.until = m.t;
+                c.stuck.push_back({na, nb, m.t});
+                if (common && crossing(na, nb, m.t, *common)) c.found = true;
+            }
+        }
+        c.tree.nodes[id].segments = std::move(segments);
+        if (done || last || c.found || effort_.spent()) return id;
+        if (!instant && s >= c.until) return id;
+        auto [c1, c2] = children(na, nb, s);
+        bool on_a = c1.first != na || c2.first != na;
+        bool swapped = on_a ? c1.first != A_.nodes[na].left : c1.second != B_.nodes[nb].left;
+        int first = extend(c, c1.first, c1.second, s, margin, common);
+        if (c.found || (margin > 0 && !c.stuck.empty())) return id;
+        int second = extend(c, c2.first, c2.second, s, margin, common);
+        auto& node = c.tree.nodes[id];
+        node.side = on_a ? 'a' : 'b';
+        node.cut = on_a ? A_.nodes[A_.nodes[na].left].hi : B_.nodes[B_.nodes[nb].left].hi;
+        node.left = swapped ? second : first, node.right = swapped ? first : second;
+        return id;
+    }
+    // Translation: one plane for all of [s, end], if the swept hull of A's group is apart from B's.
+    bool straight(Placed<double>& P, double s, double end, double margin, std::vector<Segment>& out) {
+        Points<double> both = P.at(s);
+        const auto& e = P.at(end);
+        both.insert(both.end(), e.begin(), e.end());
+        effort_.done += double(both.size() + P.b.size());
+        auto g = gjk<double>(both, P.b, P.b[0] - both[0], P.reach, 1e-9);
+        if (g.status != Status::Apart) return false;
+        double gap = norm(g.v);
+        if (!(gap > 64 * P.blur() + margin)) return false;
+        auto n = g.v * (1 / gap);
+        if (!leaf(P, s, end, 'W', n, margin)) return false;
+        out.push_back({end, 'W', wide(n)});
+        return true;
+    }
+
+    bool meets_at(double t, const Cover& c, Common& common) {
+        for (auto it = c.stuck.rbegin(); it != c.stuck.rend() && it - c.stuck.rbegin() < 8; ++it)
+            if (crossing(it->a, it->b, t, common)) return true;
+        if (single() && !A_.mesh && !B_.mesh) return false;
+        Cover now = cover(t, t, 0, &common);
+        return now.found;
+    }
+
+    // A point of the crossing of two elements, moved into the solid where an element is only a triangle of its surface.
+    bool crossing(int na, int nb, double t, Common& out) {
+        if (!A_.mesh && !B_.mesh) {
+            auto P = quick(na, nb);
+            auto w = inside<double>(P.at(t), P.b, P.reach);
+            if (!w) {
+                Exact e(*this, na, nb);
+                w = inside<dd>(e.placed.at(t), e.b, e.placed.reach);
+            }
+            if (!w) return false;
+            out = {w->point, A_.order[A_.nodes[na].lo], B_.order[B_.nodes[nb].lo], w->a, w->b};
+            return true;
+        }
+        Exact e(*this, na, nb);
+        const auto& x = e.placed.at(t);
+        vec<dd> inward;
+        if (A_.mesh) inward = inward - unit(cross(x[1] - x[0], x[2] - x[0]));
+        if (B_.mesh) inward = inward - unit(cross(e.b[1] - e.b[0], e.b[2] - e.b[0]));
+        if (!(norm(inward) > dd(1e-20))) return false;
+        double reach = e.placed.reach;
+        for (auto& y : shared(x, e.b, reach)) {
+            for (double depth = 0.03 * std::min(A_.size, B_.size); depth > 1e-27 * reach; depth *= 0.125)
+                if (holds(y + inward * dd(depth), t, out)) return true;
+        }
+        return false;
+    }
+    static vec<dd> unit(vec<dd> v) {
+        dd l = norm(v);
+        return l > dd(0) ? v * (dd(1) / l) : v;
+    }
+    // Points common to two hulls and in the relative interior of both, if they cross.
+    std::vector<vec<dd>> shared(const Points<dd>& A, const Points<dd>& B, double reach) {
+        unsigned long long seed = 7;
+        auto draw = [&] { return 0.25 + double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 4294967296.0; };
+        auto shrink = [&](const Points<dd>& p, double eps) {
+            vec<dd> m;
+            double total = 0;
+            for (auto& v : p) {
+                double w = draw();
+                m = m + v * dd(w), total += w;
+            }
+            m = m * (dd(1) / dd(total));
+            Points<dd> out(p);
+            for (auto& v : out) v = v + (m - v) * dd(eps);
+            return out;
         };
-        const double r = 0.6180339887498949;
-        double a = lo, b = hi, c = b - r * (b - a), d = a + r * (b - a), fc = gap(c), fd = gap(d);
-        for (int i = 0; i < 24; ++i) {
-            if (fc < fd) b = d, d = c, fd = fc, c = b - r * (b - a), fc = gap(c);
-            else a = c, c = d, fc = fd, d = a + r * (b - a), fd = gap(d);
-        }
-        return std::min(fc, fd);
+        std::vector<vec<dd>> found;
+        for (double eps = 0.5; eps > 1e-25 && found.empty(); eps *= eps > 0.06 ? 0.25 : 0.03)
+            for (int attempt = 0; attempt < 2; ++attempt) {
+                auto a = shrink(A, eps), b = shrink(B, eps);
+                effort_.done += 20.0 * double(a.size() + b.size());
+                auto g = gjk<dd>(a, b, b[0] - a[0], reach, 1e-3);
+                if (g.status == Status::Apart) break;
+                if (g.status != Status::Meet) continue;
+                vec<dd> y;
+                for (int i = 0; i < 4; ++i) y = y + b[g.s[i].b] * g.w[i];
+                found.push_back(y);
+            }
+        return found;
     }
 
-    void clear_with_gap(Proof& p, const March& m, int effort) {
-        p.label = "clear";
-        double before = 0, after = 1, least = m.least;
-        for (auto& s : p.segments) {
-            if (s.end < m.at) before = s.end;
-            if (s.end > m.at) { after = s.end; break; }
+    // Is x (relative to p_A, world axes) strictly inside both at time t? Fills `out` if so.
+    bool holds(vec<dd> x, double t, Common& out) {
+        vec<dd> ya = transposed(sq_.RA, transposed(sq_.turn(dd(t)), x - sq_.d * dd(t))), yb = transposed(sq_.RB, x - sq_.dp);
+        Common c;
+        c.point = wide(x);
+        if (!within(A_, ya, c.piece_a, c.a) || !within(B_, yb, c.piece_b, c.b)) return false;
+        out = c;
+        return true;
+    }
+    bool within(const Solid& s, vec<dd> y, int& piece, std::array<int, 4>& ids) {
+        if (s.mesh) {
+            effort_.done += double(s.faces.size());
+            auto w = s.winding(y);
+            return w && *w != 0;
         }
-        least = std::min(least, nearest(before, after));
-        for (double share : {0.98, 0.85, 0.5, 0.1}) {
-            std::vector<Segment> segments;
-            int steps = effort;
-            March again = run(0, 1, share * least, steps, segments);
-            if (!again.done) continue;
-            p.segments = segments, p.gap = share * least, p.steps += effort - steps;
+        for (size_t i = 0; i < s.elements.size(); ++i)
+            if (tetrahedron(s.elements[i], y, ids)) { piece = int(i); return true; }
+        return false;
+    }
+    bool tetrahedron(const Vertices& element, vec<dd> y, std::array<int, 4>& ids) {
+        Points<double> p, o(1, vec<double>{double(y.x), double(y.y), double(y.z)});
+        for (auto& v : element) p.push_back({v[0], v[1], v[2]});
+        double reach = largest(p) + norm(o[0]);
+        effort_.done += double(p.size());
+        auto g = gjk<double>(o, p, p[0] - o[0], reach, 1e-3);
+        if (g.status == Status::Apart && norm(g.v) > 1e-12 * reach) return false;
+        if (g.status == Status::Meet && *std::min_element(g.w.begin(), g.w.end()) > 1e-9) {
+            for (int i = 0; i < 4; ++i) ids[i] = g.s[i].b;
+            return true;
+        }
+        Points<dd> q, oq(1, y);
+        for (auto& v : element) q.push_back({dd(v[0]), dd(v[1]), dd(v[2])});
+        effort_.done += 20.0 * double(p.size());
+        auto gq = gjk<dd>(oq, q, q[0] - y, reach, 1e-3);
+        if (gq.status != Status::Meet) return false;
+        for (int i = 0; i < 4; ++i) ids[i] = gq.s[i].b;
+        return true;
+    }
+
+    // Surfaces are apart at t: is one inside the other? Then a point of the inner one is common to both.
+    bool contained(double t, Common& out) { return (B_.mesh || A_.mesh) && probes(t, out, true); }
+    // Surfaces are not shown apart, and no crossing gave a point (coincident faces): look below the surface of both.
+    bool anywhere(double t, Common& out) { return probes(t, out, false); }
+
+    bool probes(double t, Common& out, bool parts_only) {
+        for (int side = 0; side < 2; ++side) {
+            const Solid& s = side ? B_ : A_;
+            size_t count = parts_only ? s.part.size() : s.elements.size();
+            size_t stride = parts_only ? 1 : std::max<size_t>(1, count / 64);
+            for (size_t i = 0; i < count && !effort_.spent(); i += stride) {
+                int id = parts_only ? s.part[i] : int(i);
+                auto& e = s.elements[id];
+                vec<dd> m, n;
+                Points<dd> p;
+                for (auto& v : e) p.push_back({dd(v[0]), dd(v[1]), dd(v[2])});
+                double total = 0;
+                for (size_t j = 0; j < p.size(); ++j) {
+                    double w = 1 + 0.37 * double((j * 7 + size_t(id) * 3) % 11) / 11;
+                    m = m + p[j] * dd(w), total += w;
+                }
+                m = m * (dd(1) / dd(total));
+                if (s.mesh) n = unit(cross(p[1] - p[0], p[2] - p[0]));
+                for (double depth = s.mesh ? 0.05 * std::min(A_.size, B_.size) : 0; ; depth *= 0.125) {
+                    if (holds(world(side, m - n * dd(depth), t), t, out)) return true;
+                    if (!s.mesh || depth < 1e-17 * s.size || effort_.spent()) break;
+                }
+            }
+        }
+        return false;
+    }
+    vec<dd> world(int side, vec<dd> y, double t) const {
+        return side ? sq_.RB * y + sq_.dp : sq_.turn(dd(t)) * (sq_.RA * y) + sq_.d * dd(t);
+    }
+
+    // A clear sweep: prove it again with a margin close to the least distance.
+    void widen(Proof& p, const Cover& c) {
+        double least = c.least;
+        int best = -1;
+        const int n = single() ? 16 : 12;
+        for (int i = 0; i <= n; ++i) {
+            double d = distance(double(i) / n);
+            if (d < least || best < 0) best = i;
+            least = std::min(least, d);
+        }
+        double lo = std::max(0.0, double(best - 1) / n), hi = std::min(1.0, double(best + 1) / n);
+        if (c.least <= least) lo = std::max(0.0, c.at - 1.0 / n), hi = std::min(1.0, c.at + 1.0 / n);
+        const double r = 0.6180339887498949;
+        double x = hi - r * (hi - lo), y = lo + r * (hi - lo), fx = distance(x), fy = distance(y);
+        for (int i = 0; i < (theta_ == 0 && single() ? 40 : 20); ++i) {
+            if (fx < fy) hi = y, y = x, fy = fx, x = hi - r * (hi - lo), fx = distance(x);
+            else lo = x, x = y, fx = fy, y = lo + r * (hi - lo), fy = distance(y);
+            least = std::min({least, fx, fy});
+        }
+        for (double share : {0.98, 0.8, 0.4, 0.1}) {
+            if (!(share * least > 64 * blur_)) return;
+            Cover again = cover(0, 1, share * least, nullptr);
+            if (effort_.spent() || !again.stuck.empty()) continue;
+            p.tree = std::move(again.tree), p.gap = share * least;
             return;
         }
     }

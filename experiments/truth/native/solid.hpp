@@ -1,0 +1,148 @@
+// A body as the prover sees it: convex elements (one hull, pieces, or triangles) in a tree of nearby groups; winding numbers.
+#pragma once
+#include <numeric>
+
+#include "convex.hpp"
+
+namespace truth {
+
+struct Node { int lo, hi, left = -1, right = -1; Vertices v; std::array<double, 3> centre; double radius; };
+
+class Solid {
+  public:
+    bool mesh = false;
+    std::vector<Vertices> elements;
+    std::vector<int> order;               // elements in the order of the tree's leaves
+    std::vector<Node> nodes;              // nodes[0] is the root and covers order[lo, hi)
+    Vertices vertices;                    // of a mesh
+    std::vector<std::array<int, 3>> faces;
+    std::vector<int> part;                // one element of each piece, or of each connected part of a mesh
+    double size = 0;
+
+    explicit Solid(std::vector<Vertices> pieces) : elements(std::move(pieces)) {
+        part.resize(elements.size());
+        std::iota(part.begin(), part.end(), 0);
+        finish();
+    }
+    Solid(Vertices v, std::vector<std::array<int, 3>> f) : mesh(true), vertices(std::move(v)), faces(std::move(f)) {
+        for (auto& t : faces) elements.push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
+        connect();
+        finish();
+    }
+
+    // Winding number about y (body frame): signed crossings of a ray; nullopt where y is on the surface as far as dd can tell.
+    std::optional<int> winding(vec<dd> y) const {
+        static const double rays[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {3, 5, 7}, {-7, 4, 3}, {5, -8, 6}, {-2, -7, 9}};
+        for (auto& u : rays)
+            if (auto w = crossings(y, {u[0], u[1], u[2]})) return w;
+        return std::nullopt;
+    }
+
+  private:
+    void finish() {
+        order.resize(elements.size());
+        std::iota(order.begin(), order.end(), 0);
+        centres_.resize(elements.size());
+        for (size_t i = 0; i < elements.size(); ++i) {
+            centres_[i] = {0, 0, 0};
+            for (auto& v : elements[i])
+                for (int c = 0; c < 3; ++c) centres_[i][c] += v[c] / double(elements[i].size());
+        }
+        grow(0, int(elements.size()));
+        size = 2 * nodes[0].radius;
+    }
+    int grow(int lo, int hi) {
+        int id = int(nodes.size());
+        nodes.emplace_back();
+        Node n;
+        n.lo = lo, n.hi = hi;
+        if (mesh && hi - lo > 1) {
+            std::vector<int> ids;
+            for (int i = lo; i < hi; ++i) ids.insert(ids.end(), faces[order[i]].begin(), faces[order[i]].end());
+            std::sort(ids.begin(), ids.end());
+            ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+            for (int i : ids) n.v.push_back(vertices[i]);
+        } else {
+            for (int i = lo; i < hi; ++i) n.v.insert(n.v.end(), elements[order[i]].begin(), elements[order[i]].end());
+        }
+        std::array<double, 3> low = n.v[0], high = n.v[0];
+        for (auto& v : n.v)
+            for (int c = 0; c < 3; ++c) low[c] = std::min(low[c], v[c]), high[c] = std::max(high[c], v[c]);
+        double r = 0;
+        int axis = 0;
+        for (int c = 0; c < 3; ++c) {
+            n.centre[c] = 0.5 * (low[c] + high[c]);
+            if (high[c] - low[c] > high[axis] - low[axis]) axis = c;
+        }
+        for (auto& v : n.v) r = std::max(r, std::hypot(v[0] - n.centre[0], v[1] - n.centre[1], v[2] - n.centre[2]));
+        n.radius = r;
+        if (hi - lo > 1) {
+            int mid = (lo + hi) / 2;
+            std::nth_element(order.begin() + lo, order.begin() + mid, order.begin() + hi, [&](int a, int b) {
+                return centres_[a][axis] != centres_[b][axis] ? centres_[a][axis] < centres_[b][axis] : a < b;
+            });
+            n.left = grow(lo, mid);
+            n.right = grow(mid, hi);
+        }
+        nodes[id] = std::move(n);
+        return id;
+    }
+    void connect() {
+        std::vector<int> root(vertices.size());
+        std::iota(root.begin(), root.end(), 0);
+        auto find = [&](int i) { while (root[i] != i) i = root[i] = root[root[i]]; return i; };
+        for (auto& t : faces) root[find(t[0])] = find(t[1]), root[find(t[1])] = find(t[2]);
+        std::vector<char> seen(vertices.size());
+        for (size_t i = 0; i < faces.size(); ++i) {
+            int r = find(faces[i][0]);
+            if (!seen[r]) seen[r] = 1, part.push_back(int(i));
+        }
+    }
+    std::optional<int> crossings(vec<dd> y, vec<double> u) const {
+        vec<double> y0{y.x.hi, y.y.hi, y.z.hi};
+        double scale = std::abs(y0.x) + std::abs(y0.y) + std::abs(y0.z) + size;
+        int total = 0;
+        for (auto& t : faces) {
+            vec<double> w[3];
+            double L = 0;
+            for (int i = 0; i < 3; ++i) {
+                auto& v = vertices[t[i]];
+                w[i] = {v[0] - y0.x, v[1] - y0.y, v[2] - y0.z};
+                L = std::max(L, std::abs(w[i].x) + std::abs(w[i].y) + std::abs(w[i].z));
+            }
+            double bound = 1e-14 * 16 * L * (L + scale), e[3];
+            int up = 0, down = 0;
+            for (int i = 0; i < 3; ++i) {
+                e[i] = dot(u, cross(w[i], w[(i + 1) % 3]));
+                up += e[i] > bound, down += e[i] < -bound;
+            }
+            if (up && down) continue;
+            double vol = dot(w[0], cross(w[1], w[2]));
+            int side = up == 3 ? 1 : down == 3 ? -1 : 0, high = vol > L * bound ? 1 : vol < -L * bound ? -1 : 0;
+            if (!side || !high) {
+                vec<dd> z[3];
+                for (int i = 0; i < 3; ++i) {
+                    auto& v = vertices[t[i]];
+                    z[i] = vec<dd>{dd(v[0]), dd(v[1]), dd(v[2])} - y;
+                }
+                vec<dd> ud{dd(u.x), dd(u.y), dd(u.z)};
+                double tiny = bound * 1e-14;
+                up = down = 0;
+                for (int i = 0; i < 3; ++i) {
+                    double q = double(dot(ud, cross(z[i], z[(i + 1) % 3])));
+                    up += q > tiny, down += q < -tiny;
+                }
+                if (up && down) continue;
+                side = up == 3 ? 1 : down == 3 ? -1 : 0;
+                double q = double(dot(z[0], cross(z[1], z[2])));
+                high = q > L * tiny ? 1 : q < -L * tiny ? -1 : 0;
+                if (!side || !high) return std::nullopt;
+            }
+            if (side == high) total += side;
+        }
+        return total;
+    }
+    std::vector<std::array<double, 3>> centres_;
+};
+
+}  // namespace truth
