@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-from ofg import Body
+from ofg import Body, decompose
 
 from .scenario import snap
 
@@ -163,10 +163,6 @@ def real_pieces(name: str) -> Body:
 @cache
 def decomposed(body: Body) -> Body:
     """The union of the CoACD pieces of a closed mesh, vertices snapped to float32. The pieces *are* the body then."""
-    try:
-        from ofg import decompose
-    except ImportError:  # not written yet: stay with the surface
-        return body
     pieces = decompose(body, threshold=0.05, seed=0).pieces
     return Body.union([hull_of(p.vertices, p.name) for p in pieces], f"{body.name} pieces")
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from experiments.scenario import Scenario
 
-_NOT_SCENARIOS = {"draw", "page"}
+_NOT_SCENARIOS = {"aim", "draw", "page"}
 
 
 @cache

@@ -89,6 +89,11 @@ class Seat:
         v = self.matrix @ [x, y, z]
         return v * 2.0 ** np.round(np.log2(length / np.linalg.norm(v)))
 
+    def apart(self, gap: float) -> Draft:
+        """At rest, `gap` (length) apart along the normal; negative: that deep in each other. Tag "aim" holds it."""
+        self.tags["aim"] = float(gap)
+        return self.draft(gap * self.normal, [0, 0, 0])
+
     def draft(self, position_a, position_b, motion: Motion = Motion()) -> Draft:
         return Draft(self.a, self.b, Pose(self.rotation_a, position_a), Pose(self.rotation_b, position_b), motion, self.tags)
 

@@ -10,10 +10,9 @@ from ._place import FEATURE_PAIRS, any_direction, seat
 
 def generate(rng, level) -> Draft:
     s = seat(rng, any_convex(rng), any_convex(rng), FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
-    gap = float(rng.choice([1e-2, 1e-4]) * rng.choice([-1, 1]))
-    s.tags["gap"] = gap
+    gap = s.tags["aim"] = float(rng.choice([1e-2, 1e-4]) * rng.choice([-1, 1]) * s.size)
     # At 1e8 neighbouring float32 positions are 8 apart: both bodies get the same position, and A's vertices the gap.
-    lifted = hull_of(s.a.vertices + np.array([0, 0, gap * s.size]), s.a.name)
+    lifted = hull_of(s.a.vertices + np.array([0, 0, gap]), s.a.name)
     where = level * any_direction(rng)
     draft = s.draft(where, where)
     return Draft(lifted, draft.b, draft.pose_a, draft.pose_b, tags=draft.tags)

@@ -8,7 +8,7 @@ from ._place import FEATURE_PAIRS, seat
 
 def generate(rng, level) -> Draft:
     s = seat(rng, any_convex(rng), any_convex(rng), FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
-    return s.draft(level * s.size * s.normal, [0, 0, 0])
+    return s.apart(level * s.size)
 
 
 SCENARIO = Scenario(

@@ -11,9 +11,10 @@ from ._place import FEATURE_PAIRS, seat
 def generate(rng, level) -> Draft:
     s = seat(rng, any_convex(rng), any_convex(rng), FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
     x, y = rng.choice([-1, 1], 2) * rng.integers(1, 8, 2)
+    clearance = s.tags["aim"] = level * s.size
     half = s.exact(x, y, 0, 1.5 * max(s.a.size, s.b.size))
     # The clearance sits in B's position and the path in A's: their sum would round the clearance away.
-    return s.draft(-half, -level * s.size * s.normal, Motion(2 * half))
+    return s.draft(-half, -clearance * s.normal, Motion(2 * half))
 
 
 SCENARIO = Scenario(

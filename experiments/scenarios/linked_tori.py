@@ -21,7 +21,7 @@ def generate(rng, level) -> Draft:
     wall = (RADIUS - flat) * np.cos(half)
     a = Pose([np.cos(half / 2), 0, 0, np.sin(half / 2)])
     b = Pose([1, 1, 0, 0], [RADIUS + flat - wall + level * body.size, 0, 0])
-    return in_world(rng, Draft(body, body, a, b, tags={"form": form}))
+    return in_world(rng, Draft(body, body, a, b, tags={"form": form, "aim": level * body.size}))
 
 
 SCENARIO = Scenario(

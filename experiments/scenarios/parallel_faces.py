@@ -11,8 +11,8 @@ from ._place import seat
 
 def generate(rng, level) -> Draft:
     s = seat(rng, scaled(any_convex(rng), 0.25), box(2.0, 2.0, 0.5), "face-face")
-    s.tags["gap"] = float(rng.choice([1e-2, 1e-4, 1e-6, 1e-8]) * rng.choice([-1, 1]))
-    return replace(s, a=tilted(s.a, level)).draft(s.tags["gap"] * s.size * s.normal, [0, 0, 0])
+    gap = rng.choice([1e-2, 1e-4, 1e-6, 1e-8]) * rng.choice([-1, 1])
+    return replace(s, a=tilted(s.a, level)).apart(gap * s.size)
 
 
 def tilted(body: Body, slope: float) -> Body:

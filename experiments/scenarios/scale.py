@@ -9,8 +9,7 @@ from ._place import FEATURE_PAIRS, seat
 def generate(rng, level) -> Draft:
     a, b = scaled(any_convex(rng), level), scaled(any_convex(rng), level)
     s = seat(rng, a, b, FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
-    s.tags["gap"] = float(rng.choice([1e-2, 1e-4]) * rng.choice([-1, 1]))
-    return s.draft(s.tags["gap"] * s.size * s.normal, [0, 0, 0])
+    return s.apart(rng.choice([1e-2, 1e-4]) * rng.choice([-1, 1]) * s.size)
 
 
 SCENARIO = Scenario(

@@ -20,8 +20,7 @@ def generate(rng, level) -> Draft:
     s = seat(rng, a, b, PAIRS[kind])
     s.tags["kind"] = kind
     thickness = 2 / level
-    gap = rng.choice([-1, 1]) * rng.choice([0.5, 0.05, 0.005]) * thickness
-    return s.draft(gap * s.normal, [0, 0, 0])
+    return s.apart(rng.choice([-1, 1]) * rng.choice([0.5, 0.05, 0.005]) * thickness)
 
 
 SCENARIO = Scenario(

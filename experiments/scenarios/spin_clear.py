@@ -14,12 +14,12 @@ def generate(rng, level) -> Draft:
     turn = rng.uniform(0.6, 1.5)
     radius = np.linalg.norm(spinner.vertices[:, :2], axis=1).max()
     tip = spinner.vertices[np.argmax(np.linalg.norm(spinner.vertices[:, :2], axis=1))]
-    face = radius * (1 + level * turn**2 / 8)
+    clearance = level * radius * turn**2 / 8
     # The tip's circle touches the plane of the face in the middle of the turn.
     angle = np.arctan2(tip[1], tip[0]) + turn / 2
     block = box(0.25, float(np.float32(0.5 * turn)), 0.5)
-    pose = Pose([np.cos(angle / 2), 0, 0, np.sin(angle / 2)], (face + 0.125) * np.array([np.cos(angle), np.sin(angle), 0]))
-    return in_world(rng, Draft(spinner, block, Pose(), pose, Motion([0, 0, 0], [0, 0, 1], turn), {"turn": round(turn, 3)}))
+    pose = Pose([np.cos(angle / 2), 0, 0, np.sin(angle / 2)], (radius + clearance + 0.125) * np.array([np.cos(angle), np.sin(angle), 0]))
+    return in_world(rng, Draft(spinner, block, Pose(), pose, Motion([0, 0, 0], [0, 0, 1], turn), {"turn": round(turn, 3), "aim": clearance}))
 
 
 SCENARIO = Scenario(

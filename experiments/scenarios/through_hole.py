@@ -21,7 +21,7 @@ def generate(rng, level) -> Draft:
     turned = Pose(rotation).apply(body.vertices)
     beside = (HOLE - level * body.size - (turned @ side).max()) * side
     start, travel = beside + [0, 0, 1.0], np.array([0.0, 0.0, -2.0])
-    tags = {"form": form, "mover": mover}
+    tags = {"form": form, "mover": mover, "aim": level * body.size}
     if mover == "body":
         return in_world(rng, Draft(body, ring, Pose(rotation, start), Pose(), Motion(travel), tags))
     return in_world(rng, Draft(ring, body, Pose(), Pose(rotation, start), Motion(-travel), tags))

@@ -12,7 +12,7 @@ def generate(rng, level) -> Draft:
     a, b = (a, scaled(b, level)) if unit == "tiny" else (scaled(a, 1 / level), b)
     s = seat(rng, a, b, FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
     s.tags["unit"] = unit
-    return s.draft(rng.choice([-0.1, 0.1]) * s.a.size * s.normal, [0, 0, 0])
+    return s.apart(rng.choice([-0.1, 0.1]) * s.a.size)
 
 
 SCENARIO = Scenario(
