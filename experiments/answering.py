@@ -12,7 +12,7 @@ from baselines.contract import MissingEngine, Unsupported
 
 from .case import Case
 from .config import RunConfig, load_files
-from .pool import Task, run
+from .pool import Task, limit, run
 from .progress import stage
 from .rows import cases_of
 from .store import Store
@@ -33,14 +33,14 @@ def ask(store: Store, config: RunConfig, workers: int) -> None:
         for i, chunk in enumerate(chunks):
             names.append(("parts", "observations", f"{m:03d}-{i:05d}.parquet"))
             if not store.has(*names[-1]):
-                tasks.append(_task(store, method, chunk, names[-1]))
+                tasks.append(_task(store, config, method, chunk, names[-1]))
     with stage("ask methods", len(cases) * len(methods)) as advance:
         advance(len(cases) * len(methods) - sum(len(t.items) for t in tasks))
-        run(tasks, workers, config.query_seconds, store.path("workers.log"), advance, partial(load_files, config))
+        run(tasks, workers, config.build_seconds + config.query_seconds, store.path("workers.log"), advance, partial(load_files, config))
     store.write(pd.concat([store.read(*name) for name in names], ignore_index=True), "observations.parquet")
 
 
-def _task(store: Store, method, chunk: list[Case], name) -> Task:
+def _task(store: Store, config: RunConfig, method, chunk: list[Case], name) -> Task:
     def done(rows):
         frame = pd.DataFrame(rows, columns=COLUMNS).astype({"hit": "boolean"})
         store.write(frame, *name)
@@ -48,10 +48,11 @@ def _task(store: Store, method, chunk: list[Case], name) -> Task:
     def lost(case, status, detail):
         return _row(case, method.label, status, detail=detail)
 
-    return Task(_open, method.label, chunk, done, lost)
+    return Task(_open, (method.label, config), chunk, done, lost)
 
 
-def _open(spec: str):
+def _open(argument: tuple[str, RunConfig]):
+    spec, config = argument
     try:
         (method,) = registry.make(spec)
         reason = registry.available(type(method))
@@ -59,13 +60,16 @@ def _open(spec: str):
         reason = str(error)
     if reason:
         return lambda case: _row(case, spec, "unsupported", detail=reason)
-    return lambda case: answer(method, case)
+    return lambda case: answer(method, case, config)
 
 
-def answer(method, case: Case) -> dict:
+def answer(method, case: Case, config: RunConfig) -> dict:
     """The observation row of one method at one case. An exception of the engine is its answer: status `error`."""
     try:
-        verdict = method.prepare(case.query)()
+        with limit(config.build_seconds):
+            ask_it = method.prepare(case.query)
+        with limit(config.query_seconds):
+            verdict = ask_it()
     except Unsupported as refusal:
         return _row(case, method.label, "unsupported", detail=str(refusal))
     except MissingEngine as missing:

@@ -22,7 +22,7 @@ app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", pretty_exce
 
 A run is one folder: `ofg-bench run quick` makes cases, certifies them, asks every method, takes times and prints the tables.
 `ofg-bench list` shows what there is; a configuration of your own starts from `ofg-bench preset quick > mine.toml`.""")
-console = Console()
+console = Console(width=None if sys.stdout.isatty() else 160)  # nobody folds what goes into a file
 Run = Annotated[Path, typer.Argument(help="folder of a run")]
 Workers = Annotated[Optional[int], typer.Option(min=1, help="processes for all but the timing [default: one per core]")]
 SkipMissing = Annotated[bool, typer.Option("--skip-missing", help="leave rows of engines that are not installed empty")]
@@ -132,19 +132,28 @@ def check(name: Annotated[str, typer.Argument(metavar="METHOD", help='a method, 
 
 
 def _print_table(table) -> None:
-    _print_grid(table.title, list(table.text.columns), table.text.itertuples(index=False), table.caption)
+    """A table of a run, without its optional columns where the terminal is too narrow for them."""
+    text, optional = table.text, list(table.optional)
+    while optional and _width(text) > console.width:
+        text = text.drop(columns=optional.pop(0))
+    _print_grid(table.title, text.columns, list(text.itertuples(index=False)), table.caption)
 
 
 def _print_grid(title: str, columns, rows, caption: str = "") -> None:
-    """One table, no wider than the terminal; the first column is never shortened."""
-    grid = Grid(title=title, caption=caption, title_justify="left", caption_justify="left", title_style="bold", box=None, pad_edge=False, header_style="bold")
+    """Columns of numbers are aligned to the right. The first column is never folded."""
+    console.print(f"[bold]{title}[/]", highlight=False)
+    grid = Grid(box=None, pad_edge=False, header_style="bold")
     for i, column in enumerate(columns):
-        numeric = title[:1].isupper() and i > 0 and "arning" not in column
-        grid.add_column(str(column), justify="right" if numeric and caption else "left", no_wrap=i == 0, overflow="fold")
+        grid.add_column(str(column).strip(), justify="left" if any(str(row[i])[:1].isalpha() and row[i] != "all" for row in rows) else "right", no_wrap=i == 0, overflow="fold")
     for row in rows:
         grid.add_row(*map(str, row))
     console.print(grid)
+    console.print(caption, style="dim", highlight=False)
     console.print()
+
+
+def _width(text) -> int:
+    return sum(max(len(str(v)) for v in (*text[c], c)) + 2 for c in text.columns)
 
 
 def _levels(levels) -> str:

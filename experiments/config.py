@@ -46,6 +46,7 @@ class RunConfig(_Strict):
     timing: TimingChoice = TimingChoice()
     method_files: tuple[str, ...] = Field(default=(), description="Python files with METHODS = [...] of your own")
     scenario_files: tuple[str, ...] = Field(default=(), description="Python files with SCENARIO = ... of your own")
+    build_seconds: float = Field(default=300.0, gt=0, description="limit for preparing one query (convex decomposition can take minutes)")
     query_seconds: float = Field(default=10.0, gt=0, description="limit for one query, after which it counts as timeout")
     label_seconds: float = Field(default=30.0, gt=0, description="limit for one label, after which it counts as uncertain")
 

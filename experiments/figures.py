@@ -18,6 +18,8 @@ from .timing import SIZES, size_of
 # Okabe and Ito's palette, told apart by every common colour vision; markers repeat the distinction in grey print.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999933")
 MARKERS = "osD^vP*Xh<>p"
+GRAIN = 50.0  # ns: net times below what the clock can tell are drawn there
+LEAST = 20  # certified cases without which a panel says nothing
 
 
 def accuracy_speed(store: Store) -> None:
@@ -41,8 +43,8 @@ def joined(store: Store) -> pd.DataFrame:
     points["rate"] = points.wrong / points.judged
     intervals = [metrics.wilson(w, n) for w, n in zip(points.wrong, points.judged)]
     points["low"], points["high"] = zip(*intervals) if intervals else ((), ())
-    points["us"] = np.maximum(points.net, 10.0) / 1e3  # a net time below the clock's grain is drawn at 10 ns
-    points["front"] = False
+    points["us"] = np.maximum(points.net, GRAIN) / 1e3
+    points = points[points.groupby(["question", "faces"]).judged.transform("max") >= LEAST].assign(front=False)
     for _, group in points[points.answered == points.asked].groupby(["question", "faces"], sort=False):
         points.loc[pareto(group.us, group.rate), "front"] = True
     return points

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from typing import Iterator
 
@@ -9,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from baselines import registry
+from ofg import QUESTIONS
 
 from . import metrics, scenarios
 from .store import Store
@@ -19,7 +21,8 @@ BANDS = (1e-2, 1e-4, 1e-7)  # of |gap| / size, that tables are split by
 
 @dataclass(frozen=True)
 class Table:
-    """numbers: what CSV holds. text: what people read; same rows. headline: printed at the end of a run; the others on demand."""
+    """numbers: what CSV holds. text: what people read; same rows. headline: printed at the end of a run; the others on demand.
+    optional: columns of text that a narrow terminal leaves out, the first to go first."""
 
     name: str
     title: str
@@ -27,14 +30,15 @@ class Table:
     numbers: pd.DataFrame
     text: pd.DataFrame
     headline: bool = False
+    optional: tuple[str, ...] = ()
 
 
 def build(store: Store) -> Iterator[Table]:
     """Every table of the run that has rows, in reading order."""
     found = metrics.outcomes(store)
-    makers = [truth_table(store)]
+    makers = [truth_table(store), method_table(store, found)]
     for question in found.question.unique():
-        part = found[found.question == question]
+        part = found[(found.question == question) & (found.detail != f"does not answer {question}")]
         makers += [accuracy_table(part, question), scenario_table(part, question)]
         if question == "overlap":
             makers.append(gap_table(part))
@@ -67,21 +71,35 @@ def truth_table(store: Store) -> Table:
     frame = pd.DataFrame(rows)
     text = frame.assign(exposes=frame.exposes.str.slice(0, 44))
     return Table("truth", "Cases and their certified labels.", "Uncertain cases are in no rate. 'Drawn again': draws thrown away because the step began "
-                 "in overlap.", frame, text, headline=True)
+                 "in overlap.", frame, text, True, ("exposes", "drawn again"))
+
+
+def method_table(store: Store, found: pd.DataFrame) -> Table:
+    """What each method of the run is, as it declares itself, with the version that ran."""
+    versions, known, rows = json.loads(store.path("manifest.json").read_text())["versions"], registry.methods(), []
+    for name in dict.fromkeys(label.split()[0] for label in found.method):
+        m = known[name]
+        rows.append({"method": name, "configuration": m.configuration, "engine": f"{m.engine} {versions.get(m.engine) or 'absent'}",
+                     "answers": " ".join(q for q in QUESTIONS if q in m.questions), "bodies": " ".join(sorted(m.bodies)),
+                     "tests": "solid" if m.solid else "surface", "margin": m.margin, "guarantee": m.guarantee})
+    frame = pd.DataFrame(rows)
+    text = frame.assign(answers=[" ".join(q[0] for q in a.split()) for a in frame.answers], bodies=[" ".join(k[0] for k in b.split()) for b in frame.bodies])
+    return Table("methods", "Methods.", "As they declare themselves. Answers: overlap, translation, motion; bodies: convex, mesh, union. A method is left out of the tables of "
+                 "questions that it does not answer.", frame, text.astype(str), optional=("guarantee", "engine"))
 
 
 def accuracy_table(part: pd.DataFrame, question: str) -> Table:
     counts = metrics.rates(part, ["method"])
     text = pd.DataFrame({"method": counts.method, "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
-                         "misses": _fraction(counts, "misses", "hits"), "miss % [95 %]": _rate(counts, "miss")})
+                         "misses": _fraction(counts, "misses", "hits"), "95 %": _interval(counts, "miss")})
     if question != "overlap":
         text["tunnelled"] = _fraction(counts, "tunnelled", "can_tunnel")
     text["false alarms"] = _fraction(counts, "false_alarms", "clears")
-    text["alarm % [95 %]"] = _rate(counts, "alarm")
+    text["95 % "] = _interval(counts, "alarm")  # the blank keeps the two names apart
     text["in margin"] = counts.conservative.astype(str)
     tunnelling = " Tunnelled: misses of sweeps whose start and end are both clear." if question != "overlap" else ""
-    return Table(f"accuracy-{question}", f"Accuracy, {question}.", "Over the certified cases that a method answered; Wilson intervals."
-                 f"{tunnelling} In margin: hits reported within the method's documented margin, not counted as false alarms.", counts, text, headline=True)
+    return Table(f"accuracy-{question}", f"Accuracy, {question}.", "Over the certified cases that a method answered; 95 % Wilson intervals in percent."
+                 f"{tunnelling} In margin: hits reported within the method's documented margin, not counted as false alarms.", counts, text, True, ("95 %", "95 % ", "in margin", "tunnelled"))
 
 
 def scenario_table(part: pd.DataFrame, question: str) -> Table:
@@ -132,7 +150,7 @@ def time_table(part: pd.DataFrame, question: str) -> Table:
 
 
 def trouble_table(found: pd.DataFrame) -> Table:
-    lost = found[found.status != "ok"].assign(detail=lambda t: t.detail.str.slice(0, 60))
+    lost = found[(found.status != "ok") & ~found.detail.str.startswith("does not answer")].assign(detail=lambda t: t.detail.str.slice(0, 60))
     counts = lost.groupby(["method", "status", "detail"], sort=False).size().rename("cases").reset_index()
     return Table("unanswered", "What was not answered, and why.", "None of these is counted as a miss.", counts, counts.astype(str))
 
@@ -160,7 +178,11 @@ def _by_faces(part: pd.DataFrame, cell) -> pd.DataFrame:
 
 
 def _cost(net: float, gross: float) -> str:
-    return f"{net / 1e3:.3g} ({gross / 1e3:.3g})"
+    return f"{_microseconds(net)} ({_microseconds(gross)})"
+
+
+def _microseconds(ns: float) -> str:
+    return f"{ns / 1e3:.2f}" if ns < 1e4 else f"{ns / 1e3:.1f}" if ns < 1e5 else f"{ns / 1e3:.0f}"
 
 
 def _pivot(counts: pd.DataFrame, column: str, cell, order=None) -> pd.DataFrame:
@@ -179,9 +201,9 @@ def _fraction(counts: pd.DataFrame, count: str, total: str) -> list[str]:
     return [_of(c, t) for c, t in zip(counts[count], counts[total])]
 
 
-def _rate(counts: pd.DataFrame, name: str) -> list[str]:
-    rows = zip(counts[f"{name}_rate"], counts[f"{name}_low"], counts[f"{name}_high"])
-    return ["-" if np.isnan(rate) else f"{100 * rate:.1f} [{100 * low:.1f}, {100 * high:.1f}]" for rate, low, high in rows]
+def _interval(counts: pd.DataFrame, name: str) -> list[str]:
+    """Wilson interval in percent: '0.8-7.1'."""
+    return ["-" if np.isnan(low) else f"{100 * low:.1f}-{100 * high:.1f}" for low, high in zip(counts[f"{name}_low"], counts[f"{name}_high"])]
 
 
 def _share(count: int, total: int) -> str:
