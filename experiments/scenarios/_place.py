@@ -65,6 +65,7 @@ class Seat:
     """A above B with one feature of each at the common point 0, the plane between them at `normal`, which points to A.
 
     matrix: integer (3, 3); its columns, divided by `unit`, are two exact directions in the plane and the normal.
+    offset: (3,) where in the world the contact may lie, if the case can bear the rounding.
     """
 
     a: Body
@@ -73,6 +74,7 @@ class Seat:
     rotation_b: np.ndarray
     matrix: np.ndarray
     unit: float
+    offset: np.ndarray
     tags: dict
 
     @property
@@ -92,9 +94,13 @@ class Seat:
     def apart(self, gap: float) -> Draft:
         """At rest, `gap` (length) apart along the normal; negative: that deep in each other. Tag "aim" holds it."""
         self.tags["aim"] = float(gap)
-        return self.draft(gap * self.normal, [0, 0, 0])
+        return self.draft(gap * self.normal, [0, 0, 0], finest=gap)
 
-    def draft(self, position_a, position_b, motion: Motion = Motion()) -> Draft:
+    def draft(self, position_a, position_b, motion: Motion = Motion(), finest: float = 0.0) -> Draft:
+        """Both positions relative to the contact. It is moved to `offset` where rounding the positions there to float32 changes
+        the `finest` length that matters by less than a thousandth; else it stays at the world's origin."""
+        if 1e-3 * abs(finest) > 2.0**-24 * np.abs(self.offset).max():
+            position_a, position_b = position_a + self.offset, position_b + self.offset
         return Draft(self.a, self.b, Pose(self.rotation_a, position_a), Pose(self.rotation_b, position_b), motion, self.tags)
 
 
@@ -107,7 +113,8 @@ def seat(rng, body_a: Body, body_b: Body, pair: str) -> Seat:
     common, aligned = common_rotation(rng)
     spin = np.array([rng.integers(1, 8), 0, 0, rng.integers(1, 8)]) if "parallel" not in pair else IDENTITY
     matrix = norm_matrix(common)
-    return Seat(a, b, multiply(common, spin), multiply(common, UPSIDE_DOWN), matrix, float(common @ common),
+    offset = rng.normal(size=3) * min(a.size, b.size)
+    return Seat(a, b, multiply(common, spin), multiply(common, UPSIDE_DOWN), matrix, float(common @ common), offset,
                 {"feature": pair, "aligned": aligned})
 
 

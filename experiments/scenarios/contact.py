@@ -17,7 +17,7 @@ def generate(rng, level) -> Draft:
     tangent = s.matrix[:, :2] @ [np.cos(heading), np.sin(heading)] / s.unit
     speed = s.size * 10 ** rng.uniform(-0.5, 1.0)
     travel = speed * (np.sin(tilt) * tangent - np.cos(tilt) * s.normal)
-    return s.draft(-time * travel, [0, 0, 0], Motion(travel))
+    return s.draft(-time * travel, [0, 0, 0], Motion(travel), finest=s.size)
 
 
 SCENARIO = Scenario(

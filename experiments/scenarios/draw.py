@@ -17,7 +17,7 @@ import trimesh
 from PIL import Image
 
 from experiments.case import Case
-from ofg import Body, Pose
+from ofg import Body, Motion, Pose
 
 from . import scenarios
 
@@ -56,6 +56,7 @@ VIEWS = {
     "near_start": View(0.01, {"place": "towards", "angle": 45.0}),
     "parallel_faces": View(1e-2, which=4),
     "random_pose": View(0.75),
+    "real_motion": View(1.5, {"kind": "surface", "place": "onto"}),
     "real_overlap": View(0.1, {"kind": "surface"}),
     "real_sweep": View(2.0, {"kind": "surface", "place": "onto"}),
     "rotational_contact": View(1.5, {"place": "onto"}, which=8),
@@ -106,7 +107,9 @@ def _panel(ax, case: Case, screen: np.ndarray, zoom: float) -> None:
     place = lambda body, pose: Pose(pose.quaternion, pose.position - q.pose_b.position).apply(body.vertices) @ screen.T  # noqa: E731
     bodies = [(q.b, place(q.b, q.pose_b), ORANGE), (q.a, place(q.a, q.pose_a), BLUE)]
     ghosts = [(q.a, place(q.a, q.motion.pose_at(q.pose_a, t)), BLUE) for t in times]
-    every = np.concatenate([v[:, :2] for _, v, _ in bodies + ghosts])
+    start = screen @ (q.pose_a.position - q.pose_b.position)
+    arc = start + _arc(q.motion, q.a.radius) @ screen.T if q.motion.angle else start[None]
+    every = np.concatenate([v[:, :2] for _, v, _ in bodies + ghosts] + [arc[:, :2]])
     low, high = every.min(axis=0), every.max(axis=0)
     middle, half = (low + high) / 2, 0.54 * max((high - low) / PANEL) * np.array(PANEL)
     if zoom:
@@ -115,7 +118,7 @@ def _panel(ax, case: Case, screen: np.ndarray, zoom: float) -> None:
     image = _render(bodies, ghosts, corner, step)
     ax.imshow(image, origin="lower", extent=np.stack([middle - half, middle + half], axis=1).ravel(), interpolation="antialiased")
     if moving:
-        _arrows(ax, case, q.pose_b.position, screen)
+        _arrows(ax, q.motion, start, arc, screen)
     ax.set(xlim=middle[0] + half[0] * np.array([-1, 1]), ylim=middle[1] + half[1] * np.array([-1, 1]), aspect="equal")
     ax.axis("off")
 
@@ -176,19 +179,20 @@ def _fill(triangle, normal, colour, depth, picture) -> None:
     picture[window][inside] = colour
 
 
-def _arrows(ax, case: Case, origin, screen: np.ndarray) -> None:
-    q = case.query
-    start = (q.pose_a.position - origin) @ screen.T
+def _arc(motion: Motion, radius: float) -> np.ndarray:
+    """(40, 3) the turn as an arc about 0, at most nearly a full circle."""
+    axis = motion.axis / np.linalg.norm(motion.axis)
+    across = np.cross(axis, [1, 0, 0] if abs(axis[0]) < 0.8 else [0, 1, 0])
+    across /= np.linalg.norm(across)
+    turn = np.linspace(0, min(motion.angle, 5.8), 40)[:, None]
+    return 0.45 * radius * (np.cos(turn) * across + np.sin(turn) * np.cross(axis, across))
+
+
+def _arrows(ax, motion: Motion, start: np.ndarray, arc: np.ndarray, screen: np.ndarray) -> None:
     style = dict(arrowstyle="-|>", color=INK, linewidth=1.1, shrinkA=0, shrinkB=0, mutation_scale=9)
-    if q.motion.displacement.any():
-        end = start + q.motion.displacement @ screen.T
-        ax.annotate("", end[:2], start[:2], arrowprops=style, zorder=5)
-    if q.motion.angle:
-        axis = q.motion.axis / np.linalg.norm(q.motion.axis)
-        across = np.cross(axis, [1, 0, 0] if abs(axis[0]) < 0.8 else [0, 1, 0])
-        across /= np.linalg.norm(across)
-        turn = np.linspace(0, min(q.motion.angle, 5.8), 40)[:, None]
-        arc = 0.45 * q.a.radius * (np.cos(turn) * across + np.sin(turn) * np.cross(axis, across)) @ screen.T + start
+    if motion.displacement.any():
+        ax.annotate("", (start + screen @ motion.displacement)[:2], start[:2], arrowprops=style, zorder=5)
+    if motion.angle:
         ax.plot(arc[:-3, 0], arc[:-3, 1], color=INK, linewidth=1.1, zorder=5)
         ax.annotate("", arc[-1, :2], arc[-4, :2], arrowprops=style, zorder=5)
 

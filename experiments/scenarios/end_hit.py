@@ -1,5 +1,7 @@
 """A body flies onto a feature of another and arrives just before the step ends, or would have just after."""
 
+import numpy as np
+
 from experiments.scenario import Draft, Scenario
 from experiments.shapes import any_convex
 from ofg import Motion
@@ -12,7 +14,7 @@ def generate(rng, level) -> Draft:
     x, y = rng.integers(-4, 5, 2)
     travel = s.exact(x, y, -5, s.size * rng.uniform(0.5, 2.0))
     # A arrives at B's place at t = 1 exactly; B stands off from there by the last bit of the path.
-    return s.draft(-travel, -level * travel, Motion(travel))
+    return s.draft(-travel, -level * travel, Motion(travel), finest=level * np.linalg.norm(travel))
 
 
 SCENARIO = Scenario(

@@ -23,6 +23,6 @@ SCENARIO = Scenario(
     question="overlap",
     exposes="cancellation, and engines that compute in float32 or in world coordinates",
     axis="distance from the origin",
-    levels=(1e3, 1e4, 1e5, 1e6, 1e7, 1e8),
+    levels=(1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9),
     generate=generate,
 )

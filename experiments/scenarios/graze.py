@@ -14,7 +14,7 @@ def generate(rng, level) -> Draft:
     clearance = s.tags["aim"] = level * s.size
     half = s.exact(x, y, 0, 1.5 * max(s.a.size, s.b.size))
     # The clearance sits in B's position and the path in A's: their sum would round the clearance away.
-    return s.draft(-half, -clearance * s.normal, Motion(2 * half))
+    return s.draft(-half, -clearance * s.normal, Motion(2 * half), finest=clearance)
 
 
 SCENARIO = Scenario(

@@ -17,7 +17,7 @@ def generate(rng, level) -> Draft:
     tangent = s.matrix[:, :2] @ [np.cos(heading), np.sin(heading)] / s.unit
     sign = 1 if s.tags["place"] == "away" else -1
     travel = s.size * rng.uniform(0.2, 2.0) * (np.sin(tilt) * tangent + sign * np.cos(tilt) * s.normal)
-    return s.draft(level * s.size * s.normal, [0, 0, 0], Motion(travel))
+    return s.draft(level * s.size * s.normal, [0, 0, 0], Motion(travel), finest=level * s.size)
 
 
 SCENARIO = Scenario(
