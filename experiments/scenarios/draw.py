@@ -58,7 +58,7 @@ VIEWS = {
     "random_pose": View(0.75),
     "real_motion": View(1.5, {"kind": "surface", "place": "onto"}),
     "real_overlap": View(0.1, {"kind": "surface"}),
-    "real_sweep": View(2.0, {"kind": "surface", "place": "onto"}),
+    "real_sweep": View(2.0, {"kind": "surface", "place": "onto"}, which=4),
     "rotational_contact": View(1.5, {"place": "onto"}, which=8),
     "scale": View(1.0, {"feature": "vertex-face"}),
     "screw_wall": View(10.0, {"place": "through", "turn": 3.0}, (2.2, -0.7, 0.5)),
