@@ -23,18 +23,18 @@ from .contract import MissingEngine, Method, Unsupported, Verdict
 CONFIGURATIONS = ("default", "best effort", "alternative", "as written")
 KINDS = ("convex", "union", "mesh")
 UNDECLARED_TIME_ERROR = 0.05  #: what a method that documents no bound is held to on a head-on sweep
-SECONDS = 60.0  #: limit for one property
 
 
-def check(method: Method) -> list[tuple[str, bool, str]]:
-    """(property, whether it holds, what is wrong) for every property. A crash or a hang fails the property it happened in."""
+def check(method: Method, seconds: float = 60.0) -> list[tuple[str, bool, str]]:
+    """(property, whether it holds, what is wrong) for every property. A crash fails the property it happened in, and so does a hang of
+    more than `seconds`."""
     results: list[tuple[str, bool, str]] = []
     while len(results) < len(PROPERTIES):
-        results += _in_child(method, PROPERTIES[len(results):])
+        results += _in_child(method, PROPERTIES[len(results):], seconds)
     return results
 
 
-def _in_child(method: Method, properties) -> list[tuple[str, bool, str]]:
+def _in_child(method: Method, properties, seconds: float) -> list[tuple[str, bool, str]]:
     context = multiprocessing.get_context("fork")
     receive, send = context.Pipe(duplex=False)
     child = context.Process(target=_run, args=(method, properties, send), daemon=True)
@@ -42,9 +42,10 @@ def _in_child(method: Method, properties) -> list[tuple[str, bool, str]]:
     send.close()
     results = []
     for title, _ in properties:
-        if not receive.poll(SECONDS):
+        if not receive.poll(seconds):
             child.kill()
-            return results + [(title, False, f"no answer within {SECONDS:g} s")]
+            child.join()
+            return results + [(title, False, f"no answer within {seconds:g} s")]
         try:
             results.append(receive.recv())
         except EOFError:

@@ -1,0 +1,89 @@
+"""Drake's SceneGraph: hulls at one pose or at substeps, by HasCollisions or by signed distance.
+
+A union is one geometry per piece on the same frame. Every call goes through Drake's system framework (a pose is fixed on an input
+port and the query port evaluated), which costs more than the test itself; so it does for Drake's users.
+Drake 1.51.1 is the last with wheels for Python 3.11.
+"""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+
+from ofg import Body, Query
+
+from .contract import MissingEngine
+from .sampling import Discrete, Substeps
+
+
+def _drake():
+    try:
+        import pydrake.geometry
+        import pydrake.math
+    except ImportError as error:
+        raise MissingEngine("drake is not installed; install it with: pip install drake==1.51.1") from error
+    return pydrake
+
+
+class Drake(Discrete):
+    name = "drake"
+    engine, imports = "drake", "pydrake"
+    configuration = "default"
+    bodies = frozenset({"convex", "union"})
+    solid = True
+    guarantee = "GJK (FCL with libccd) in doubles"
+
+    def ask(self, query_object, ids_a, ids_b) -> bool:
+        return query_object.HasCollisions()
+
+    def build(self, query: Query):
+        pydrake = _drake()
+        geometry, transform = pydrake.geometry, pydrake.math.RigidTransform
+        graph = geometry.SceneGraph()
+        source = graph.RegisterSource("ofg")
+        frame = graph.RegisterFrame(source, geometry.GeometryFrame("a"))
+        ids_a = [graph.RegisterGeometry(source, frame, g) for g in _geometries(pydrake, query.a, "a", transform())]
+        ids_b = [graph.RegisterAnchoredGeometry(source, g) for g in _geometries(pydrake, query.b, "b", transform(query.pose_b.matrix))]
+        for identity in ids_a + ids_b:
+            graph.AssignRole(source, identity, geometry.ProximityProperties())
+        context = graph.CreateDefaultContext()
+        pose_port, query_port = graph.get_source_pose_port(source), graph.get_query_output_port()
+
+        def place(pose):
+            poses = geometry.FramePoseVector()
+            poses.set_value(frame, transform(pose.matrix))
+            return poses
+
+        def test(at, _keep=graph) -> bool:
+            pose_port.FixValue(context, at)
+            return self.ask(query_port.Eval(context), ids_a, ids_b)
+
+        return place, test
+
+
+class DrakeDistance(Drake):
+    name = "drake-distance"
+    configuration = "best effort"
+    guarantee = "signed distance by GJK/EPA (FCL with libccd) in doubles"
+
+    def ask(self, query_object, ids_a, ids_b) -> bool:
+        return any(query_object.ComputeSignedDistancePairClosestPoints(a, b).distance < 0 for a, b in product(ids_a, ids_b))
+
+
+class DrakeSubsteps(Substeps, Drake):
+    name = "drake-substeps"
+    guarantee = "drake at n poses; blind between them"
+
+
+class DrakeDistanceSubsteps(Substeps, DrakeDistance):
+    name = "drake-distance-substeps"
+    guarantee = "drake-distance at n poses; blind between them"
+
+
+def _geometries(pydrake, body: Body, side: str, at) -> list:
+    geometry = pydrake.geometry
+    return [geometry.GeometryInstance(at, geometry.Convex(np.array(p.vertices.T), f"{side}{i}"), f"{side}{i}") for i, p in enumerate(body.pieces)]
+
+
+METHODS = [Drake, DrakeDistance, DrakeSubsteps, DrakeDistanceSubsteps]

@@ -1,0 +1,124 @@
+"""IPC Toolkit: exact triangle intersection, and continuous collision of vertices on straight lines (Tight-Inclusion).
+
+Bodies of every kind are triangle soups, so containment is not seen. A motion is cut into n chords: the answer is about the chords.
+The toolkit assumes that a step starts free of intersections, and sees nothing where it does not; the start is tested first, as its
+documentation asks. Touching counts as a hit.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Callable
+
+import numpy as np
+
+from ofg import Query
+
+from .contract import Method, MissingEngine, Verdict
+from .sampling import Discrete, Substeps
+
+
+@cache
+def _ipctk():
+    try:
+        import ipctk
+    except ImportError as error:
+        raise MissingEngine("ipctk is not installed; install it with: pip install ipctk") from error
+    ipctk.set_num_threads(1)
+    ipctk.set_logger_level(ipctk.LoggerLevel.off)
+    return ipctk
+
+
+class Ipctk(Discrete):
+    name = "ipctk"
+    engine, imports = "ipctk", "ipctk"
+    configuration = "default"
+    bodies = frozenset({"convex", "union", "mesh"})
+    solid = False
+    guarantee = "triangle pairs in doubles; touching counts; surfaces only"
+
+    def build(self, query: Query):
+        mesh, place, has_intersections = _mesh(query), _placer(query), _ipctk().has_intersections
+        return place, lambda at: has_intersections(mesh, at)
+
+
+class IpctkSubsteps(Substeps, Ipctk):
+    name = "ipctk-substeps"
+    guarantee = "ipctk at n poses; blind between them"
+
+
+class IpctkCcd(Method):
+    """compute_collision_free_stepsize with TightInclusionCCD() as it comes: conservative_rescaling 0.8, which stops early.
+
+    Slow where it hits: cubes of 12 faces head-on take 0.9 s, and more than a minute where their edges meet in parallel.
+    """
+
+    name = "ipctk-ccd"
+    engine, imports = "ipctk", "ipctk"
+    configuration = "default"
+    questions = frozenset({"translation", "motion"})
+    bodies = frozenset({"convex", "union", "mesh"})
+    solid = False
+    gives_time = True
+    guarantee = "never misses on straight vertex paths, never late (interval inclusion, tolerance 1e-6); surfaces only"
+    parameters = {"n": 1, "max_iterations": 10_000_000}
+
+    def __init__(self, **parameters):
+        super().__init__(**parameters)
+        if self.parameters["n"] < 1:
+            raise ValueError(f"Method '{self.name}': n = {self.parameters['n']} chords; give 1 or more.")
+
+    def narrow_phase(self, ipctk):
+        return ipctk.TightInclusionCCD(max_iterations=self.parameters["max_iterations"])
+
+    def prepare(self, query: Query) -> Callable[[], Verdict]:
+        self.refuse(query)
+        ipctk = _ipctk()
+        mesh, place, narrow, broad = _mesh(query), _placer(query), self.narrow_phase(ipctk), ipctk.SweepAndPrune()
+        n = self.parameters["n"] if query.motion.angle else 1  # a translation is one chord
+        stops = [place(query.motion.pose_at(query.pose_a, i / n)) for i in range(n + 1)]
+
+        def ask() -> Verdict:
+            if ipctk.has_intersections(mesh, stops[0]):
+                return Verdict(True, 0.0)
+            for i in range(n):
+                step = ipctk.compute_collision_free_stepsize(mesh, stops[i], stops[i + 1], 0.0, broad, narrow)
+                if step < 1:
+                    return Verdict(True, (i + step) / n)
+            return Verdict(False)
+
+        return ask
+
+
+class IpctkCcdExact(IpctkCcd):
+    """conservative_rescaling = 1: the time as found. 1 ms on cubes head-on, within 1e-7.
+
+    Where edges meet in parallel the search does not converge and ends at max_iterations, with a time that is early: aligned cubes at 0.3
+    are 3e-3 early after 30 ms (1e4 iterations), 2e-4 after 0.4 s (1e5), 2e-4 after 3 s (1e6); the default is 1e7.
+    """
+
+    name = "ipctk-ccd-exact"
+    configuration = "best effort"
+    parameters = {"n": 16, "max_iterations": 100_000}
+
+    def narrow_phase(self, ipctk):
+        return ipctk.TightInclusionCCD(max_iterations=self.parameters["max_iterations"], conservative_rescaling=1.0)
+
+
+def _mesh(query: Query):
+    """Both bodies in one collision mesh, of which only pairs across are tested."""
+    ipctk = _ipctk()
+    n, m = len(query.a.vertices), len(query.b.vertices)
+    faces = np.concatenate([query.a.faces, query.b.faces + n]).astype(np.int32)
+    vertices = np.concatenate([query.a.vertices, query.b.vertices])
+    mesh = ipctk.CollisionMesh(np.asfortranarray(vertices), np.asfortranarray(ipctk.edges(faces)), np.asfortranarray(faces))
+    mesh.can_collide = ipctk.make_vertex_patches_filter(np.repeat(np.int32([0, 1]), [n, m]))
+    return mesh
+
+
+def _placer(query: Query) -> Callable:
+    still = query.pose_b.apply(query.b.vertices)
+    return lambda pose: np.asfortranarray(np.concatenate([pose.apply(query.a.vertices), still]))
+
+
+METHODS = [Ipctk, IpctkSubsteps, IpctkCcd, IpctkCcdExact]
