@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import nan
 from weakref import WeakKeyDictionary
-
-import numpy as np
 
 from ofg import Body, Query
 
@@ -37,7 +34,7 @@ def _overlap(query, found) -> Truth:
     if label == "clear":
         return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate={"clear": _apart(query, found["tree"])})
     if label == "hit":
-        return Truth("hit", start="hit", end="hit", gap=-_depth(query, 0.0), certificate={"hit": _inside(query, found["common"])})
+        return Truth("hit", start="hit", end="hit", gap=-found["depth"], certificate={"hit": _inside(query, found["common"])})
     if found["spent"]:
         return uncertain(f"the effort limit of {EFFORT:.0e} vertex visits ran out")
     return uncertain("touching: neither planes nor a common interior point were found in 106 bits")
@@ -56,8 +53,7 @@ def _sweep(query, found) -> Truth:
         certificate["end_clear"] = _apart(query, end["tree"])
     if end["label"] == "hit":
         certificate["end_hit"] = _inside(query, end["common"])
-    depth = max(_depth(query, t) for t in np.linspace(t_hi, 1.0, 17))
-    return Truth("hit", t_lo, t_hi, start, end["label"], -depth, certificate=certificate)
+    return Truth("hit", t_lo, t_hi, start, end["label"], -found["depth"], certificate=certificate)
 
 
 def _apart(query, tree) -> dict:
@@ -89,22 +85,6 @@ def _inside(query, found) -> dict:
     point = [Fraction(hi) + Fraction(lo) + Fraction(o) for hi, lo, o in zip(high, low, origin)]
     point = [float(x) if Fraction(float(x)) == x else str(x) for x in point]
     return {"point": point, **{key: None if found[key][0] < 0 else list(found[key]) for key in ("a", "b")}}
-
-
-def _depth(query: Query, t: float) -> float:
-    """Penetration depth at time t over the face normals of both bodies (edge pairs are left out: an estimate from above)."""
-    if query.a.kind != "convex" or query.b.kind != "convex":
-        return nan
-    pose = query.motion.pose_at(query.pose_a, float(t))
-    a, b = pose.apply(query.a.vertices), query.pose_b.apply(query.b.vertices)
-    depth = np.inf
-    for (x, y), faces in (((a, b), query.a.faces), ((b, a), query.b.faces)):
-        tri = x[faces]
-        n = np.cross(tri[:, 1] - tri[:, 0], tri[:, 2] - tri[:, 0])
-        length = np.linalg.norm(n, axis=1)
-        n = n[length > 0] / length[length > 0, None]
-        depth = min(depth, float(((x @ n.T).max(axis=0) - (y @ n.T).min(axis=0)).min()))
-    return max(depth, 0.0)
 
 
 def _solid(body: Body) -> _native.Solid:

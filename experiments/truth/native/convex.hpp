@@ -230,7 +230,7 @@ March march(Placed<T>& P, double s, double end, double margin, double floor, dou
         if (0.999 * h < least_step && m.t + h < end) return m;
         auto own = frame == 'A' ? transposed(P.scene.turn(T(m.t)), n) : n;
         double e = m.t;
-        for (double f : {8.0, 3.0, 1.4, 0.999, 0.9}) {
+        for (double f : {8.0, 3.0, 1.4, 0.999, 0.7, 0.4, 0.15, 0.03}) {
             double to = std::min(end, m.t + f * h);
             if (to > m.t && leaf(P, m.t, to, frame, own, T(margin))) { e = to; break; }
         }

@@ -60,7 +60,9 @@ NB_MODULE(_native, m) {
                        std::array<double, 3> d, std::array<double, 3> k, double theta) { new (self) Pair{qa, qb, pa, pb, d, k, theta}; });
     m.def("instant", [](const Pair& pair, const Solid& A, const Solid& B, double t, double limit) {
         Prover prover(pair, A, B, limit);
-        auto out = pack(prover.at(t));
+        Instant i = prover.at(t);
+        auto out = pack(i);
+        if (i.label == "hit") out["depth"] = prover.depth_at(t);
         out["spent"] = prover.effort().spent();
         return out;
     });
@@ -71,7 +73,7 @@ NB_MODULE(_native, m) {
         out["label"] = p.label, out["reason"] = p.reason, out["start"] = p.start, out["effort"] = prover.effort().done;
         out["t_lo"] = p.t_lo, out["t_hi"] = p.t_hi, out["gap"] = p.gap;
         if (p.label != "uncertain" && p.start == "clear") out["tree"] = pack(p.tree);
-        if (p.label == "hit") out["common"] = pack(p.common), out["end"] = pack(p.end);
+        if (p.label == "hit") out["common"] = pack(p.common), out["end"] = pack(p.end), out["depth"] = p.depth;
         return out;
     });
 }

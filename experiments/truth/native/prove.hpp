@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "depth.hpp"
 #include "solid.hpp"
 
 namespace truth {
@@ -19,7 +20,7 @@ struct Common {  // a point inside both at some time, relative to p_A; piece and
 
 struct Instant {
     std::string label = "uncertain";
-    double gap = 0, depth = 0;
+    double gap = 0;
     Tree tree;
     Common common;
 };
@@ -40,6 +41,14 @@ class Prover {
         blur_ = quick(0, 0).blur();
     }
     const Effort& effort() const { return effort_; }
+
+    // Depth at t: of the deepest of the overlapping pieces; NaN with a mesh. An estimate.
+    double depth_at(double t) {
+        if (A_.mesh || B_.mesh) return std::nan("");
+        double deepest = 0;
+        deepen(0, 0, t, deepest);
+        return deepest;
+    }
 
     Instant at(double t) {
         Instant out;
@@ -69,7 +78,7 @@ class Prover {
         Proof p;
         Instant start = at(0);
         p.start = start.label;
-        if (start.label == "hit") { p.label = "hit", p.common = start.common, p.end = at(1); return p; }
+        if (start.label == "hit") { p.label = "hit", p.common = start.common; finish(p); return p; }
         if (start.label == "uncertain") { p.reason = why("touching at the start"); return p; }
         Cover c = cover(0, 1, 0, nullptr);
         if (effort_.spent()) { p.reason = why(""); return p; }
@@ -80,7 +89,8 @@ class Prover {
             p.t_hi = std::min(1.0, p.t_lo * (1 + rel));
             if (!(p.t_hi > p.t_lo)) break;
             if (!meets_at(p.t_hi, c, p.common)) continue;
-            p.label = "hit", p.end = at(1);
+            p.label = "hit";
+            finish(p);
             return p;
         }
         p.reason = why("touching without overlap that could be certified, at t = " + std::to_string(p.t_lo));
@@ -88,6 +98,11 @@ class Prover {
     }
 
   private:
+    void finish(Proof& p) {
+        p.end = at(1);
+        p.depth = depth_at(p.t_hi);
+        for (int i = 1; i <= 16; ++i) p.depth = std::max(p.depth, depth_at(p.t_hi + (1 - p.t_hi) * i / 16));
+    }
     struct Stuck { int a, b; double t; };
     struct Cover { Tree tree; std::vector<Stuck> stuck; double until = 1, least = 1e300, at = 0; bool found = false; };
     struct Exact {  // one pair of tree nodes in double-double
@@ -144,6 +159,26 @@ class Prover {
     bool split_a(int na, int nb) const {
         if (A_.nodes[na].left < 0) return false;
         return B_.nodes[nb].left < 0 || A_.nodes[na].radius >= B_.nodes[nb].radius;
+    }
+
+    void deepen(int na, int nb, double t, double& deepest) {
+        if (effort_.spent() || 1e3 * blur_ - sphere_gap(na, nb, t) <= deepest) return;
+        auto P = quick(na, nb);
+        const auto& x = P.at(t);
+        effort_.done += double(P.r.size() + P.b.size());
+        if (leaf_pair(na, nb)) {
+            double d = depth(x, P.b, P.reach, effort_);
+            if (d < 1e-9 * P.reach) {
+                Exact e(*this, na, nb);
+                d = depth(e.placed.at(t), e.b, e.placed.reach, effort_);
+            }
+            deepest = std::max(deepest, d);
+            return;
+        }
+        if (gjk<double>(x, P.b, P.b[0] - x[0], P.reach, 1e-3).status == Status::Apart) return;
+        auto [c1, c2] = children(na, nb, t);
+        deepen(c1.first, c1.second, t, deepest);
+        deepen(c2.first, c2.second, t, deepest);
     }
 
     // Distance at t between the elements, in double; 0 where a pair meets.
@@ -402,7 +437,8 @@ class Prover {
             else lo = x, x = y, fx = fy, y = lo + r * (hi - lo), fy = distance(y);
             least = std::min({least, fx, fy});
         }
-        for (double share : {0.98, 0.8, 0.4, 0.1}) {
+        for (double share : {1 - 1e-7, 0.98, 0.8, 0.4, 0.1}) {
+            if (share > 0.99 && !(theta_ == 0 && single())) continue;
             if (!(share * least > 64 * blur_)) return;
             Cover again = cover(0, 1, share * least, nullptr);
             if (effort_.spent() || !again.stuck.empty()) continue;
