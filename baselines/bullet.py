@@ -1,8 +1,8 @@
 """Bullet 3 through PyBullet: convex hulls by getClosestPoints, at one pose or at substeps.
 
 Sweeps are sampled, because getClosestPoints knows no motion; Bullet's own swept sphere belongs to the stepping track.
-A union is a plain loop over all pairs of pieces: PyBullet's compound shape takes no vertices. Meshes are refused: a hull would be
-another body, and mesh against mesh silently returns nothing.
+A union is a plain loop over all pairs of pieces: PyBullet's compound shape takes no vertices. Meshes are refused, but for
+the -coacd methods, which decompose them: a hull would be another body, and mesh against mesh silently returns nothing.
 Traps worked around here:
 - A hull is given by its vertices only; with indices it would become a concave mesh.
 - A hull that is not removed leaks 27 KiB, so each dies with the query it was built for.
@@ -22,6 +22,7 @@ from itertools import product
 from ofg import Body, Pose, Query
 
 from .contract import MissingEngine, Unsupported
+from .pieces import Decomposed
 from .sampling import Discrete, Substeps
 
 MARGIN = 0.001  # of each hull, whatever its size; cubes in 200 rotations: distances are 2e-3 short to within 1e-12
@@ -80,6 +81,16 @@ class BulletNoMarginSubsteps(Substeps, BulletNoMargin):
     guarantee = "bullet-no-margin at n poses; blind between them"
 
 
+class BulletCoacd(Decomposed, BulletNoMargin):
+    name = "bullet-coacd"
+    guarantee = "bullet-no-margin on the pieces of CoACD at threshold 0.05, which are another body than the mesh"
+
+
+class BulletCoacdSubsteps(Decomposed, BulletNoMarginSubsteps):
+    name = "bullet-coacd-substeps"
+    guarantee = "bullet-coacd at n poses; blind between them"
+
+
 @cache
 def _client():
     try:
@@ -127,4 +138,4 @@ def _place(pose: Pose) -> tuple[list, list]:
     return pose.position.tolist(), [x, y, z, w]
 
 
-METHODS = [Bullet, BulletNoMargin, BulletSubsteps, BulletNoMarginSubsteps]
+METHODS = [Bullet, BulletNoMargin, BulletSubsteps, BulletNoMarginSubsteps, BulletCoacd, BulletCoacdSubsteps]

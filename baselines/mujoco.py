@@ -1,6 +1,7 @@
 """MuJoCo: signed distance of convex geoms at one pose or at substeps, and the sweep of its speculative contacts.
 
-A mesh geom is its convex hull, so closed meshes are refused and a union is one geom per piece, all pairs asked in a plain loop.
+A mesh geom is its convex hull, so closed meshes are refused, but for the -coacd methods, which decompose them. A union is one geom per
+piece, all pairs asked in a plain loop.
 MuJoCo stores mesh vertices as float32 after moving them to their inertia frame: an error of 1e-7 of the size that rounding the
 input does not remove, and that is not hidden here. It rejects flat meshes.
 """
@@ -15,6 +16,7 @@ import numpy as np
 from ofg import Body, Pose, Query
 
 from .contract import Method, MissingEngine, Unsupported, Verdict
+from .pieces import Decomposed
 from .sampling import Discrete, Substeps
 
 DISTMAX = 0  # only the sign is asked; with a large one libccd is wrong by 0.1 to 1 on tetrahedra
@@ -87,6 +89,16 @@ class MujocoSubsteps(Substeps, Mujoco):
 class MujocoExactSubsteps(Substeps, MujocoExact):
     name = "mujoco-exact-substeps"
     guarantee = "mujoco-exact at n poses; blind between them"
+
+
+class MujocoCoacd(Decomposed, MujocoExact):
+    name = "mujoco-coacd"
+    guarantee = "mujoco-exact on the pieces of CoACD at threshold 0.05, which are another body than the mesh"
+
+
+class MujocoCoacdSubsteps(Decomposed, MujocoExactSubsteps):
+    name = "mujoco-coacd-substeps"
+    guarantee = "mujoco-coacd at n poses; blind between them"
 
 
 class MujocoSpeculative(Method):
@@ -184,4 +196,4 @@ def _turn(query: Query) -> np.ndarray:
     return motion.angle * motion.axis / np.linalg.norm(motion.axis) if motion.angle else np.zeros(3)
 
 
-METHODS = [Mujoco, MujocoExact, MujocoLibccd, MujocoSubsteps, MujocoExactSubsteps, MujocoSpeculative]
+METHODS = [Mujoco, MujocoExact, MujocoLibccd, MujocoSubsteps, MujocoExactSubsteps, MujocoCoacd, MujocoCoacdSubsteps, MujocoSpeculative]

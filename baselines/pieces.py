@@ -1,0 +1,32 @@
+"""Concave meshes for engines that know convex shapes only: the mesh is decomposed by CoACD first, as their documentation advises."""
+
+from __future__ import annotations
+
+from typing import Callable
+
+import ofg
+from ofg import Body, Query
+
+from .contract import Unsupported, Verdict
+
+
+class Decomposed:
+    """Put this before a method of unions: `class BulletCoacd(Decomposed, Bullet)`. Other bodies pass as they are.
+
+    The pieces are another body than the mesh, by CoACD's threshold: what a verdict is worth near the surface is the decomposition's doing.
+    """
+
+    bodies = frozenset({"convex", "union", "mesh"})
+
+    def prepare(self, query: Query) -> Callable[[], Verdict]:
+        self.refuse(query)
+        return super().prepare(Query(query.question, _pieces(query.a), _pieces(query.b), query.pose_a, query.pose_b, query.motion))
+
+
+def _pieces(body: Body) -> Body:
+    if body.kind != "mesh":
+        return body
+    try:
+        return ofg.decompose(body)
+    except ofg.BodyError as error:
+        raise Unsupported(f"no convex pieces: {error}") from error
