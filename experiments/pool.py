@@ -10,15 +10,19 @@ import os
 import pickle
 import signal
 import tempfile
-from concurrent.futures import FIRST_COMPLETED, wait
+import traceback
+from collections import deque
 from dataclasses import dataclass
+from multiprocessing.connection import wait
 from pathlib import Path
-from typing import Any, Callable, Iterator, Sequence
-
-from pebble import ProcessExpired, ProcessPool
+from typing import Any, Callable, Sequence
 
 # A process that the watchdog of `limit` ends leaves with this code (faulthandler calls _exit(1)).
 WATCHDOG_EXIT = 1
+
+
+class WorkerError(RuntimeError):
+    """Our own code failed in a worker; the message is the worker's traceback."""
 
 
 @dataclass(frozen=True)
@@ -49,77 +53,77 @@ def limit(seconds: float):
 def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance: Callable[[int], None] = lambda n: None,
         prepare: Callable[[], None] | None = None) -> None:
     """Run all tasks, each in a fresh process, `workers` at a time. seconds: limit for one item. log: what processes print.
-    prepare: called first in each process.
+    prepare: called first in each process. WorkerError with the worker's traceback where our own code fails.
 
     A fresh process for each task makes results independent of the number of workers: what an engine leaves in its memory
-    is seen by the later items of the same task alone. pebble tells which task a dead process was at.
+    is seen by the later items of the same task alone. No pool of a library does this: loky and concurrent.futures break as a
+    whole when a worker dies; pebble names the task a worker died at, but broke too when one died between tasks, in its
+    engine's destructors, as some do.
     """
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(["numpy", "ofg", "experiments.pool"])
-    with tempfile.TemporaryDirectory() as folder, ProcessPool(workers, max_tasks=1, context=context) as pool:
-        waiting = {}
-
-        def submit(task: Task, before: list) -> None:
-            journal = Path(folder, f"{id(task)}-{len(before)}")
-            future = pool.schedule(_work, (prepare, task.open, task.argument, list(task.items[len(before):]), seconds, journal, log))
-            waiting[future] = (task, before, journal)
-
+    queue, running = deque((task, []) for task in tasks), {}
+    with tempfile.TemporaryDirectory() as folder:
         try:
-            for task in tasks:
-                submit(task, [])
-            while waiting:
-                for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-                    task, before, journal = waiting.pop(future)
-                    results = before + list(_read(journal))
-                    advance(len(results) - len(before))
-                    failure = _failure(future)
-                    if failure and len(results) < len(task.items):
-                        results.append(task.lost(task.items[len(results)], *failure))
-                        advance(1)
+            while queue or running:
+                while queue and len(running) < workers:
+                    task, before = queue.popleft()
+                    journal = Path(folder, f"{id(task)}-{len(before)}")
+                    process = context.Process(target=_work, args=(prepare, task.open, task.argument, task.items[len(before):], seconds, journal, log))
+                    process.start()
+                    running[process.sentinel] = process, task, before, journal
+                for sentinel in wait(running):
+                    process, task, before, journal = running.pop(sentinel)
+                    process.join()
+                    results = before + _read(journal)
                     if len(results) < len(task.items):
-                        submit(task, results)
+                        results.append(task.lost(task.items[len(results)], *_death(process.exitcode)))
+                    advance(len(results) - len(before))
+                    if len(results) < len(task.items):
+                        queue.appendleft((task, results))
                     else:
                         task.done(results)
-        except BaseException:
-            pool.stop()
-            raise
+        finally:
+            for process, *_ in running.values():
+                process.kill()
 
 
 def _work(prepare, open_, argument, items, seconds, journal, log) -> None:
     """In the worker: append each result to the journal as soon as it is there, so that a death loses the current item only."""
-    output = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND)
+    output = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
     os.dup2(output, 1), os.dup2(output, 2)
     with open(journal, "wb") as stream:
-        with limit(max(60.0, seconds)):  # imports of engines, not an answer
-            if prepare:
-                prepare()
-            answer = open_(argument)
-        for item in items:
-            with limit(seconds):
-                result = answer(item)
-            pickle.dump(result, stream)
-            stream.flush()
+        try:
+            with limit(max(60.0, seconds)):  # imports of engines, not an answer
+                if prepare:
+                    prepare()
+                answer = open_(argument)
+            for item in items:
+                with limit(seconds):
+                    result = answer(item)
+                pickle.dump(result, stream)
+                stream.flush()
+        except Exception:
+            pickle.dump(WorkerError(traceback.format_exc()), stream)
+    os._exit(0)  # past the destructors of engines, some of which crash
 
 
-def _read(journal: Path) -> Iterator[Any]:
-    stream = io.BytesIO(journal.read_bytes() if journal.exists() else b"")
+def _read(journal: Path) -> list[Any]:
+    stream, found = io.BytesIO(journal.read_bytes() if journal.exists() else b""), []
     while True:
         try:
-            yield pickle.load(stream)
+            found.append(pickle.load(stream))
         except (EOFError, pickle.UnpicklingError):
-            return
+            return found
+        if isinstance(found[-1], WorkerError):
+            raise found[-1]
 
 
-def _failure(future) -> tuple[str, str] | None:
-    """(status, detail) of a process that died, None for one that finished. Errors of ours are raised."""
-    try:
-        future.result()
-    except ProcessExpired as death:
-        if death.exitcode == WATCHDOG_EXIT:
-            return "timeout", "the limit for one item ran out"
-        name = signal.Signals(-death.exitcode).name if death.exitcode < 0 else f"exit code {death.exitcode}"
-        return "error", f"the process died: {name}"
-    return None
+def _death(exitcode: int) -> tuple[str, str]:
+    """(status, detail) of the item that a process died at."""
+    if exitcode == WATCHDOG_EXIT:
+        return "timeout", "the limit for one item ran out"
+    return "error", "the process died: " + (signal.Signals(-exitcode).name if exitcode < 0 else f"exit code {exitcode}")
 
 
 def _null():

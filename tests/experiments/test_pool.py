@@ -3,9 +3,12 @@
 import os
 import signal
 import time
+import weakref
 from functools import partial
 
-from experiments.pool import Task, run
+import pytest
+
+from experiments.pool import Task, WorkerError, run
 
 
 def _open(kill_at):
@@ -14,6 +17,10 @@ def _open(kill_at):
             os.kill(os.getpid(), signal.SIGABRT)
         if item == kill_at.get("hang"):
             time.sleep(60)
+        if item == kill_at.get("raise"):
+            raise ZeroDivisionError("ours")
+        if item == kill_at.get("crash at exit"):
+            weakref.finalize(os, os.abort)
         return item * item
 
     return answer
@@ -49,3 +56,13 @@ def test_every_item_may_die(tmp_path):
 def test_what_workers_print_goes_to_the_log(tmp_path, capfd):
     _results(tmp_path, [[1]], {"abort": 1})
     assert (tmp_path / "log").exists() and not capfd.readouterr().out
+
+
+def test_a_crash_after_the_last_answer_costs_nothing(tmp_path):
+    """Some engines crash in their destructors; a pool of a library broke as a whole on that."""
+    assert _results(tmp_path, [[1, 2], [3]], {"crash at exit": 2}) == [[1, 4], [9]]
+
+
+def test_an_error_of_ours_is_raised_with_its_traceback(tmp_path):
+    with pytest.raises(WorkerError, match="ZeroDivisionError: ours"):
+        _results(tmp_path, [[1, 2, 3]], {"raise": 2})
