@@ -6,20 +6,21 @@ from typing import Iterable
 
 from ofg import Query
 
-from .checker import Check, check
+from .checker import Check, check, check_many
 from .label import Truth
 from .prover import prove, uncertain
 
-__all__ = ["Check", "Truth", "check", "label", "label_many", "prove"]
+__all__ = ["Check", "Truth", "check", "check_many", "label", "label_many", "prove"]
 
 
 def label(query: Query) -> Truth:
     """Prove, then check. A label that its own checker refuses becomes "uncertain" with the checker's reason."""
-    truth = prove(query)
-    verdict = check(query, truth)
-    return truth if verdict.ok else uncertain(f"the checker refused a proposed {truth.label}: {verdict.reason}")
+    return label_many([query])[0]
 
 
 def label_many(queries: Iterable[Query]) -> list[Truth]:
-    """`label` for each query, in one process."""
-    return [label(q) for q in queries]
+    """`label` for each query, in one process; the checker's doubles are batched over all of them."""
+    queries = list(queries)
+    truths = [prove(q) for q in queries]
+    checks = check_many(zip(queries, truths))
+    return [t if c.ok else uncertain(f"the checker refused a proposed {t.label}: {c.reason}") for t, c in zip(truths, checks)]

@@ -1,0 +1,76 @@
+"""Exact and ball arithmetic of three-vectors for the checker: rationals (fmpq) as long as nothing turns, then balls (arb)."""
+
+from __future__ import annotations
+
+from flint import arb, fmpq
+
+BITS = 256
+
+
+def rational(x) -> fmpq:
+    """A double, exactly."""
+    return fmpq(*float(x).as_integer_ratio())
+
+
+def number(x) -> fmpq:
+    """A number of a certificate: a double, or a rational "p/q" or "p"."""
+    if isinstance(x, str):
+        p, _, q = x.partition("/")
+        return fmpq(int(p), int(q or 1))
+    return rational(x)
+
+
+def nearest_double(x) -> float:
+    """The double next to a number of a certificate (error: one unit in the last place)."""
+    if isinstance(x, str):
+        x = number(x)
+    return int(x.p) / int(x.q) if isinstance(x, fmpq) else float(x)
+
+
+def vector(v) -> list:
+    return [rational(c) for c in v]
+
+
+def rotation(w, x, y, z) -> list:
+    """Rows of N(q) / |q|^2, in the arithmetic of the arguments."""
+    s = w * w + x * x + y * y + z * z
+    return [[(w * w + x * x - y * y - z * z) / s, 2 * (x * y - w * z) / s, 2 * (x * z + w * y) / s],
+            [2 * (x * y + w * z) / s, (w * w - x * x + y * y - z * z) / s, 2 * (y * z - w * x) / s],
+            [2 * (x * z - w * y) / s, 2 * (y * z + w * x) / s, (w * w - x * x - y * y + z * z) / s]]
+
+
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a, b) -> list:
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def add(a, b, factor=1) -> list:
+    return [x + factor * y for x, y in zip(a, b)]
+
+
+def mul(R, v) -> list:
+    return [dot(row, v) for row in R]
+
+
+def transposed(R, v) -> list:
+    return [dot(column, v) for column in zip(*R)]
+
+
+def norm(v) -> arb:
+    """The root of a ball that reaches below 0 is that of its upper end, and 0 below: never NaN."""
+    s = arb(dot(v, v))
+    return s.sqrt() if s > 0 else arb(0, s.abs_upper().sqrt().abs_upper())
+
+
+def greatest(values) -> arb:
+    best = arb(values[0])
+    for x in values[1:]:
+        best = best.max(arb(x))
+    return best
+
+
+def least(values) -> arb:
+    return -greatest([-arb(x) for x in values])

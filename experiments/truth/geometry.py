@@ -1,0 +1,89 @@
+"""What the checker's two arithmetics share: a query's poses and motion as doubles and as exact numbers; bodies as elements."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from flint import arb
+
+from .balls import add, cross, dot, norm, rational, rotation, vector
+
+_reaches, _parts = WeakKeyDictionary(), WeakKeyDictionary()
+
+
+class Pair:
+    """A query taken apart. In doubles: dp = p_B - p_A, d, unit axis k, theta, rotations RA, RB; `reach` bounds all coordinates."""
+
+    def __init__(self, query):
+        m = query.motion
+        self.query, self.a, self.b = query, query.a, query.b
+        self.theta, self.d = float(m.angle), m.displacement
+        self.dp = query.pose_b.position - query.pose_a.position
+        self.k = m.axis / np.linalg.norm(m.axis / np.abs(m.axis).max()) / np.abs(m.axis).max() if self.theta else np.zeros(3)
+        self.RA, self.RB = (np.array(rotation(*p.quaternion.tolist())) for p in (query.pose_a, query.pose_b))
+        self.reach = reach(self.a) + reach(self.b) + sum(map(abs, self.dp.tolist())) + sum(map(abs, self.d.tolist()))
+
+    @cached_property
+    def exact(self):
+        """(RA, RB, dp, d, k, theta): rationals, but for the unit axis k, whose length is a root: balls."""
+        q, m = self.query, self.query.motion
+        RA, RB = (rotation(*map(rational, p.quaternion)) for p in (q.pose_a, q.pose_b))
+        dp = add(vector(q.pose_b.position), vector(q.pose_a.position), -1)
+        axis = vector(m.axis)
+        k = [arb(c) / norm(axis) for c in axis] if self.theta else vector((0, 0, 0))
+        return RA, RB, dp, vector(m.displacement), k, rational(self.theta)
+
+    def turn(self, t, v):
+        """Rot(k, theta t) v in balls; v itself where nothing turns, so that rationals stay rational."""
+        k, theta = self.exact[4:]
+        if not theta or not t:
+            return v
+        s, c = arb(theta * t).sin_cos()
+        return add(add([c * x for x in v], cross(k, v), s), k, (1 - c) * dot(k, v))
+
+
+class points:
+    """Vertices of a body's elements in a given order, one block; `of(lo, hi)` are those of elements lo to hi - 1."""
+
+    def __init__(self, body, order):
+        if body.kind == "mesh":
+            faces = body.faces if order is None else body.faces[order]
+            self.block, self.first = body.vertices[faces.ravel()], range(0, 3 * len(faces) + 1, 3)
+        elif len(body.pieces) == 1:
+            self.block, self.first = body.pieces[0].vertices, (0, len(body.pieces[0].vertices))
+        else:
+            pieces = [body.pieces[i].vertices for i in (order or range(len(body.pieces)))]
+            self.block, self.first = np.concatenate(pieces), np.cumsum([0] + [len(p) for p in pieces])
+
+    def of(self, lo, hi):
+        return self.block[self.first[lo]:self.first[hi]]
+
+
+def elements(body):
+    """The convex sets that a body is made of as far as planes go: its pieces, or the triangles of a mesh."""
+    return body.faces if body.kind == "mesh" else body.pieces
+
+
+def parts(body):
+    """(n, 3): one vertex of each convex piece, or of each edge-connected part of a mesh."""
+    if body not in _parts:
+        if body.kind != "mesh":
+            _parts[body] = [p.vertices[0] for p in body.pieces]
+        else:
+            part, before = np.arange(len(body.vertices)), None
+            while not np.array_equal(part, before):
+                before, low = part.copy(), part[body.faces].min(axis=1)
+                for i in range(3):
+                    np.minimum.at(part, body.faces[:, i], low)
+                part = part[part]
+            _parts[body] = body.vertices[np.unique(part[body.faces])]
+    return _parts[body]
+
+
+def reach(body) -> float:
+    """Bound on |x| + |y| + |z| of a body's vertices, in its frame."""
+    if body not in _reaches:
+        _reaches[body] = float(np.abs(body.vertices).sum(axis=1).max())
+    return _reaches[body]
