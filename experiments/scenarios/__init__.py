@@ -22,8 +22,8 @@ def scenarios() -> dict[str, Scenario]:
         if not module.startswith("_") and module not in _NOT_SCENARIOS:
             scenario = importlib.import_module(f"{__name__}.{module}").SCENARIO
             if scenario.name != module:
-                raise ValueError(f"Scenario file {module}.py defines a scenario named '{scenario.name}'; the two must be the same, "
-                                 "so that a row of a table leads to its file. Rename one of them.")
+                raise ValueError(f"Scenario file {module}.py defines a scenario named '{scenario.name}'; the two must be the "
+                                 "same, so that a row of a table leads to its file. Rename one of them.")
             found[module] = scenario
     return found
 
@@ -35,12 +35,12 @@ def get(name: str) -> Scenario:
         return known[name]
     close = difflib.get_close_matches(name, known, n=3, cutoff=0.4)
     hint = f"did you mean {', '.join(close)}? " if close else ""
-    raise ValueError(f"Scenario '{name}' is unknown; {hint}The families are: {', '.join(known)}. A scenario of your own is given as the "
-                   "path of a Python file that defines SCENARIO.")
+    raise ValueError(f"Scenario '{name}' is unknown; {hint}The families are: {', '.join(known)}. A scenario of your own is "
+                     "given as the path of a Python file that defines SCENARIO.")
 
 
 def load_file(path) -> list[Scenario]:
-    """The scenarios of a Python file outside this folder, which defines SCENARIO, or SCENARIOS (several); they join `scenarios()`.
+    """The scenarios of a Python file outside this folder, which sets SCENARIO, or SCENARIOS (several); they join `scenarios()`.
 
     ValueError where the file is missing, defines neither, or takes the name of a family of this folder.
     """
@@ -54,8 +54,8 @@ def load_file(path) -> list[Scenario]:
     spec.loader.exec_module(module)
     found = list(getattr(module, "SCENARIOS", [])) or [s for s in [getattr(module, "SCENARIO", None)] if s is not None]
     if not found or not all(isinstance(s, Scenario) for s in found):
-        raise ValueError(f"Scenario file {path} defines no scenario; it must set SCENARIO = Scenario(...), or SCENARIOS to a list of "
-                         "them (from experiments.scenario import Scenario, Draft).")
+        raise ValueError(f"Scenario file {path} defines no scenario; it must set SCENARIO = Scenario(...), or SCENARIOS to a list "
+                         "of them (from experiments.scenario import Scenario, Draft).")
     taken = [s.name for s in found if s.name in {m.name for m in pkgutil.iter_modules(__path__)}]
     if taken:
         raise ValueError(f"Scenario file {path}: the name '{taken[0]}' is taken by a family of this project; choose another.")

@@ -18,6 +18,7 @@ from experiments.shapes import any_convex, box, hull_of, rod, scaled
 from ofg import Body, Motion, Pose
 
 IDENTITY = np.array([1, 0, 0, 0])
+QUARTER_TURN = np.array([1, 0, 0, 1])  # about z
 UPSIDE_DOWN = np.array([0, 1, 0, 0])
 FEATURE_PAIRS = ("vertex-vertex", "vertex-edge", "vertex-face", "edge-edge crossing", "edge-edge parallel", "edge-face",
                  "face-face")
@@ -104,14 +105,19 @@ class Seat:
         return Draft(self.a, self.b, Pose(self.rotation_a, position_a), Pose(self.rotation_b, position_b), motion, self.tags)
 
 
-def seat(rng, body_a: Body, body_b: Body, pair: str) -> Seat:
-    """Rest A on B by one of FEATURE_PAIRS; which body has which feature is drawn."""
+def seat(rng, body_a: Body, body_b: Body, pair: str | None = None) -> Seat:
+    """Rest A on B by one of FEATURE_PAIRS, drawn if not given; which body has which feature is drawn."""
+    pair = pair or FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))]
     features = pair.split()[0].split("-")
     if rng.random() < 0.5:
         features.reverse()
     a, b = (rest_on(body, feature, int(rng.integers(4))) for body, feature in zip((body_a, body_b), features))
     common, aligned = common_rotation(rng)
-    spin = np.array([rng.integers(1, 8), 0, 0, rng.integers(1, 8)]) if "parallel" not in pair else IDENTITY
+    if aligned == "yes":  # boxes stay boxes of the world: a quarter turn at most
+        spin = QUARTER_TURN if "crossing" in pair or rng.random() < 0.5 else IDENTITY
+    else:
+        spin = np.array([rng.integers(1, 8), 0, 0, rng.integers(1, 8)])
+    spin = IDENTITY if "parallel" in pair else spin
     matrix = norm_matrix(common)
     offset = rng.normal(size=3) * min(a.size, b.size)
     return Seat(a, b, multiply(common, spin), multiply(common, UPSIDE_DOWN), matrix, float(common @ common), offset,
@@ -151,8 +157,10 @@ def _feature(mesh: trimesh.Trimesh, feature: str, rng):
         face = rng.choice(len(mesh.faces), p=mesh.area_faces / mesh.area_faces.sum())
         normal = mesh.face_normals[face]
         heights = (mesh.vertices - mesh.vertices[mesh.faces[face][0]]) @ normal
-        weights = rng.dirichlet(np.ones(3) * 3)
-        return normal, rng.normal(size=3), weights @ mesh.vertices[mesh.faces[face]], np.flatnonzero(heights > -GROUND)
+        corners = mesh.vertices[mesh.faces[face]]
+        sides = np.roll(corners, -1, axis=0) - corners
+        shortest = sides[np.argmin(np.linalg.norm(sides, axis=1))]  # of a box, not the diagonal
+        return normal, shortest, rng.dirichlet(np.ones(3) * 3) @ corners, np.flatnonzero(heights > -GROUND)
     if feature == "edge":
         sharp = np.flatnonzero(mesh.face_adjacency_angles > 0.02)
         lengths = np.linalg.norm(np.diff(mesh.vertices[mesh.face_adjacency_edges[sharp]], axis=1)[:, 0], axis=1)

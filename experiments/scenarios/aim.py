@@ -42,14 +42,14 @@ def main() -> None:
     parser.add_argument("-n", "--cases", type=int, default=10, help="cases per level (10)")
     parser.add_argument("families", nargs="*", help="names (all)")
     options = parser.parse_args()
-    print(f"{'family':20}{'level':>10}{'hit':>6}{'clear':>6}{'uncert':>7}{'redrawn':>8}{'tunnels':>8}   reached / aimed: median (worst)")
+    counts = ("hit", "clear", "uncertain", "redrawn", "tunnels")
+    print(f"{'family':20}{'level':>12}" + "".join(f"{c:>10}" for c in counts) + "   reached / aimed: median (worst)")
     for name in options.families or scenarios():
         for level in get(name).levels:
             found = survey(get(name), level, options.cases)
             r = np.array(found["ratios"])
             reached = f"{np.median(r):.6g} ({r[np.argmax(np.abs(r - 1))]:.6g})" if len(r) else ""
-            print(f"{name:20}{level:10g}{found['hit']:6}{found['clear']:6}{found['uncertain']:7}{found['redrawn']:8}{found['tunnels']:8}   {reached}",
-                  flush=True)
+            print(f"{name:20}{level:12g}" + "".join(f"{found[c]:10}" for c in counts) + "   " + reached, flush=True)
 
 
 if __name__ == "__main__":

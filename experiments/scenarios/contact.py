@@ -6,11 +6,11 @@ from experiments.scenario import Draft, Scenario
 from experiments.shapes import any_convex
 from ofg import Motion
 
-from ._place import FEATURE_PAIRS, seat
+from ._place import seat
 
 
 def generate(rng, level) -> Draft:
-    s = seat(rng, any_convex(rng), any_convex(rng), FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
+    s = seat(rng, any_convex(rng), any_convex(rng))
     s.tags["place"] = ("onto", "short of")[int(rng.random() < 0.3)]
     time = rng.uniform(0.1, 0.9) if s.tags["place"] == "onto" else rng.uniform(1.01, 1.5)
     tilt, heading = np.radians(level), rng.uniform(0, 2 * np.pi)

@@ -77,8 +77,8 @@ def pictured(name: str) -> Case:
     cases = [scenario.case(1, view.level, index) for index in range(300)]
     fits = [c for c in cases if all(c.tags.get(k) == v for k, v in view.tags.items())]
     if not fits:
-        raise ValueError(f"Scenario '{name}': none of 300 cases at level {view.level:g} has the tags {view.tags} of its view in draw.py; "
-                         "correct the view.")
+        raise ValueError(f"Scenario '{name}': none of 300 cases at level {view.level:g} has the tags {view.tags} of its view in "
+                         "draw.py; correct the view.")
     return sorted(fits, key=lambda c: c.tags.get("aligned") != "yes")[view.which]
 
 
@@ -104,7 +104,10 @@ def _panel(ax, case: Case, screen: np.ndarray, zoom: float) -> None:
     q = case.query
     moving = bool(q.motion.angle or q.motion.displacement.any())
     times = np.linspace(0, 1, 9 if q.motion.angle > 1 else 5)[1:] if moving else []
-    place = lambda body, pose: Pose(pose.quaternion, pose.position - q.pose_b.position).apply(body.vertices) @ screen.T  # noqa: E731
+
+    def place(body: Body, pose: Pose) -> np.ndarray:  # relative to B, which may be far from the origin
+        return Pose(pose.quaternion, pose.position - q.pose_b.position).apply(body.vertices) @ screen.T
+
     bodies = [(q.b, place(q.b, q.pose_b), ORANGE), (q.a, place(q.a, q.pose_a), BLUE)]
     ghosts = [(q.a, place(q.a, q.motion.pose_at(q.pose_a, t)), BLUE) for t in times]
     start = screen @ (q.pose_a.position - q.pose_b.position)

@@ -6,11 +6,11 @@ from experiments.scenario import Draft, Scenario
 from experiments.shapes import any_convex
 from ofg import Motion
 
-from ._place import FEATURE_PAIRS, seat
+from ._place import seat
 
 
 def generate(rng, level) -> Draft:
-    s = seat(rng, any_convex(rng), any_convex(rng), FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
+    s = seat(rng, any_convex(rng), any_convex(rng))
     x, y = rng.integers(-4, 5, 2)
     travel = s.exact(x, y, -5, s.size * rng.uniform(0.5, 2.0))
     # A arrives at B's place at t = 1 exactly; B stands off from there by the last bit of the path.

@@ -5,11 +5,11 @@ import numpy as np
 from experiments.scenario import Draft, Scenario
 from experiments.shapes import any_convex, hull_of
 
-from ._place import FEATURE_PAIRS, any_direction, seat
+from ._place import any_direction, seat
 
 
 def generate(rng, level) -> Draft:
-    s = seat(rng, any_convex(rng), any_convex(rng), FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
+    s = seat(rng, any_convex(rng), any_convex(rng))
     gap = s.tags["aim"] = float(rng.choice([1e-2, 1e-4]) * rng.choice([-1, 1]) * s.size)
     # At 1e8 neighbouring float32 positions are 8 apart: both bodies get the same position, and A's vertices the gap.
     lifted = hull_of(s.a.vertices + np.array([0, 0, gap]), s.a.name)

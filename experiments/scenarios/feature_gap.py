@@ -3,11 +3,11 @@
 from experiments.scenario import Draft, Scenario
 from experiments.shapes import any_convex
 
-from ._place import FEATURE_PAIRS, seat
+from ._place import seat
 
 
 def generate(rng, level) -> Draft:
-    s = seat(rng, any_convex(rng), any_convex(rng), FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
+    s = seat(rng, any_convex(rng), any_convex(rng))
     return s.apart(level * s.size)
 
 

@@ -2,14 +2,13 @@
 
 from experiments.scenario import Draft, Scenario
 from experiments.shapes import any_convex
-
 from ofg import Motion
 
-from ._place import FEATURE_PAIRS, seat
+from ._place import seat
 
 
 def generate(rng, level) -> Draft:
-    s = seat(rng, any_convex(rng), any_convex(rng), FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
+    s = seat(rng, any_convex(rng), any_convex(rng))
     x, y = rng.choice([-1, 1], 2) * rng.integers(1, 8, 2)
     clearance = s.tags["aim"] = level * s.size
     half = s.exact(x, y, 0, 1.5 * max(s.a.size, s.b.size))

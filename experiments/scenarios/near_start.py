@@ -6,11 +6,11 @@ from experiments.scenario import Draft, Scenario
 from experiments.shapes import any_convex
 from ofg import Motion
 
-from ._place import FEATURE_PAIRS, seat
+from ._place import seat
 
 
 def generate(rng, level) -> Draft:
-    s = seat(rng, any_convex(rng), any_convex(rng), FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
+    s = seat(rng, any_convex(rng), any_convex(rng))
     s.tags["place"] = ("towards", "away")[int(rng.random() < 0.4)]
     s.tags["angle"] = float(rng.choice([0.0, 45.0, 80.0]))
     tilt, heading = np.radians(s.tags["angle"]), rng.uniform(0, 2 * np.pi)

@@ -19,7 +19,7 @@ SCENARIO = Scenario(
     question="motion",
     exposes="tunnelling of bodies that fly and turn at once: sampling, linearised paths, and what certainty costs on both",
     axis="travel in the step / thickness of the wall",
-    levels=(2.0, 10.0, 100.0, 1e3, 1e4, 1e6, 1e9),
+    levels=(2.0, 10.0, 100.0, 1e3, 1e4, 1e6, 1e9, 1e15),
     generate=generate,
     redraw_if=("start-overlap",),
 )

@@ -18,14 +18,16 @@ def generate(rng, level) -> Draft:
     # The tip's circle touches the plane of the face in the middle of the turn.
     angle = np.arctan2(tip[1], tip[0]) + turn / 2
     block = box(0.25, float(np.float32(0.5 * turn)), 0.5)
-    pose = Pose([np.cos(angle / 2), 0, 0, np.sin(angle / 2)], (radius + clearance + 0.125) * np.array([np.cos(angle), np.sin(angle), 0]))
-    return in_world(rng, Draft(spinner, block, Pose(), pose, Motion([0, 0, 0], [0, 0, 1], turn), {"turn": round(turn, 3), "aim": clearance}))
+    out = np.array([np.cos(angle), np.sin(angle), 0])
+    pose = Pose([np.cos(angle / 2), 0, 0, np.sin(angle / 2)], (radius + clearance + 0.125) * out)
+    motion = Motion([0, 0, 0], [0, 0, 1], turn)
+    return in_world(rng, Draft(spinner, block, Pose(), pose, motion, {"turn": round(turn, 3), "aim": clearance}))
 
 
 SCENARIO = Scenario(
     name="spin_clear",
     question="motion",
-    exposes="the chord's error: a path of K straight pieces is off by r theta^2 / 8 K^2, and misses or invents hits below 1 / K^2",
+    exposes="the chord's error: a path of K straight pieces is off by r theta^2 / 8 K^2, and wrong where the clearance is less",
     axis="signed clearance / (r theta^2 / 8)",
     levels=tuple(sign * 0.25**k for k in range(7) for sign in (1, -1)),
     generate=generate,

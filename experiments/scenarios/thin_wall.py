@@ -14,7 +14,7 @@ SCENARIO = Scenario(
     question="translation",
     exposes="tunnelling: methods that look at the end pose, or at samples of the path",
     axis="travel in the step / thickness of the wall",
-    levels=(2.0, 10.0, 100.0, 1e3, 1e4, 1e6, 1e9),
+    levels=(2.0, 10.0, 100.0, 1e3, 1e4, 1e6, 1e9, 1e15),
     generate=generate,
     redraw_if=("start-overlap",),
 )

@@ -3,14 +3,14 @@
 from experiments.scenario import Draft, Scenario
 from experiments.shapes import any_convex, scaled
 
-from ._place import FEATURE_PAIRS, seat
+from ._place import seat
 
 
 def generate(rng, level) -> Draft:
     a, b = any_convex(rng), any_convex(rng)
     unit = ("tiny", "huge")[rng.integers(2)]  # which of the two has the size 1
     a, b = (a, scaled(b, level)) if unit == "tiny" else (scaled(a, 1 / level), b)
-    s = seat(rng, a, b, FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))])
+    s = seat(rng, a, b)
     s.tags["unit"] = unit
     return s.apart(rng.choice([-0.1, 0.1]) * s.a.size)
 
