@@ -142,7 +142,7 @@ def clear(pair, cert, start, end, gap):
             side, cuts, children = split
             ends = [(ra if side == "a" else rb)[0], *cuts, (ra if side == "a" else rb)[1]]
             require(side in ("a", "b") and all(x < y for x, y in zip(ends, ends[1:])), "a split does not cover its side")
-            for child, *r in zip(children, ends, ends[1:], strict=True):
+            for child, r in zip(children, list(zip(ends, ends[1:])), strict=True):
                 stack.append((child, r, rb, s, owing) if side == "a" else (child, ra, r, s, owing))
     for mesh, other, of_b in ((pair.a, pair.b, True), (pair.b, pair.a, False)):
         if mesh.kind == "mesh":  # its surface is apart from the other body: one point of each connected part decides

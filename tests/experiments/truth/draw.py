@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import trimesh
 
 from ofg import Body, Motion, Pose, Query
 
@@ -59,3 +60,17 @@ def scaled(q: Query, power: int) -> Query:
     a, b = (Body._of("convex", x.vertices * f, x.faces, (), x.name) for x in (q.a, q.b))
     pose_a, pose_b = (Pose(p.quaternion, p.position * f) for p in (q.pose_a, q.pose_b))
     return Query(q.question, a, b, pose_a, pose_b, Motion(q.motion.displacement * f, q.motion.axis, q.motion.angle))
+
+
+def composite_query(rng, question: str) -> Query:
+    """Unions, closed concave meshes and hulls against each other, near enough to hit about as often as not."""
+    def body():
+        kind = rng.integers(3)
+        if kind == 0:
+            return hull(rng, 10)
+        if kind == 1:
+            return Body.union([Body.convex(single(rng.normal(size=(8, 3)) * 0.4 + rng.normal(size=3))) for _ in range(4)], "union")
+        torus = trimesh.creation.torus(1.0, 0.35, major_sections=10, minor_sections=6)
+        return Body.mesh(single(torus.vertices), torus.faces, "torus")
+
+    return convex_query(rng, question, body(), body())

@@ -9,7 +9,7 @@ import trimesh
 from experiments.truth import check, label
 from ofg import Body, Motion, Pose, Query
 
-from .draw import convex_query, moved_together, scaled, swapped
+from .draw import composite_query, convex_query, moved_together, scaled, swapped
 
 QUESTIONS = ("overlap", "translation", "motion")
 CUBE = Body.from_trimesh(trimesh.creation.box((2, 2, 2)), "cube")
@@ -76,3 +76,16 @@ def test_the_gap_of_a_clear_pair_is_a_bound_close_to_the_distance():
     assert truth.label == "clear" and 1 - 1e-6 < truth.gap <= 1
     turning = label(cubes("motion", [4, 0, 0], Motion([0, 0, 0], [0, 0, 1], 6.25)))
     assert turning.label == "clear" and 0.95 * (3 - 2**0.5) < turning.gap <= 3 - 2**0.5 + 1e-9
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_unions_and_meshes_are_settled(question):
+    rng = np.random.default_rng(4)
+    kinds, labels = set(), set()
+    for _ in range(40):
+        query = composite_query(rng, question)
+        truth = label(query)
+        assert truth.label != "uncertain", truth.reason
+        kinds.add((query.a.kind, query.b.kind))
+        labels.add(truth.label)
+    assert len(kinds) > 6 and labels == {"hit", "clear"}
