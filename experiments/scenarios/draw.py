@@ -15,6 +15,7 @@ import matplotlib
 import numpy as np
 import trimesh
 from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 from experiments.case import Case
 from ofg import Body, Motion, Pose
@@ -74,12 +75,21 @@ VIEWS = {
 def pictured(name: str) -> Case:
     """The first case of the family that fits its view; axis-aligned ones where the family has them, which are easier to read."""
     scenario, view = scenarios()[name], VIEWS.get(name, View(scenarios()[name].levels[0]))
-    cases = [scenario.case(1, view.level, index) for index in range(300)]
-    fits = [c for c in cases if all(c.tags.get(k) == v for k, v in view.tags.items())]
-    if not fits:
-        raise ValueError(f"Scenario '{name}': none of 300 cases at level {view.level:g} has the tags {view.tags} of its view in "
+    fits, aligned = [], []
+    for index in range(300):
+        case = scenario.case(1, view.level, index)
+        if all(case.tags.get(k) == v for k, v in view.tags.items()):
+            (aligned if case.tags.get("aligned") == "yes" else fits).append(case)
+        if len(aligned) > view.which:
+            return aligned[view.which]
+    if len(aligned + fits) <= view.which:
+        raise ValueError(f"Scenario '{name}': too few of 300 cases at level {view.level:g} have the tags {view.tags} of its view in "
                          "draw.py; correct the view.")
-    return sorted(fits, key=lambda c: c.tags.get("aligned") != "yes")[view.which]
+    return (aligned + fits)[view.which]
+
+
+def caption(case: Case) -> str:
+    return f"{case.id}: {case.query.a.name}, {case.query.b.name}"
 
 
 def draw(name: str, path: Path) -> None:
@@ -97,7 +107,9 @@ def draw(name: str, path: Path) -> None:
     buffer = io.BytesIO()
     figure.savefig(buffer, dpi=DPI)
     plt.close(figure)
-    Image.open(buffer).convert("RGB").quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)
+    note = PngInfo()
+    note.add_text("case", caption(case))  # lets a test see that a picture is out of date
+    Image.open(buffer).convert("RGB").quantize(128, dither=Image.Dither.NONE).save(path, optimize=True, pnginfo=note)
 
 
 def _panel(ax, case: Case, screen: np.ndarray, zoom: float) -> None:

@@ -1,8 +1,7 @@
 """The page and the pictures are those of the scenarios as they are."""
 
-from PIL import Image
-
 import pytest
+from PIL import Image
 
 from experiments.scenarios import draw, page, scenarios
 
@@ -20,6 +19,8 @@ def test_every_family_has_a_view_and_a_small_picture(name):
     path = page.FOLDER / "figures" / f"{name}.png"
     assert path.is_file(), "run python -m experiments.scenarios.draw experiments/scenarios/figures"
     assert path.stat().st_size < 60_000
+    assert Image.open(path).text["case"] == draw.caption(draw.pictured(name)), (
+        "the picture is out of date: run python -m experiments.scenarios.draw experiments/scenarios/figures")
 
 
 def test_picture_shows_both_bodies(tmp_path):
