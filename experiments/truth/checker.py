@@ -235,8 +235,8 @@ def exact_time(pair, cert, t_lo, t_hi):
     RA, RB, dp, d, _, theta = pair.exact
     t, n = number(cert["time"]), [number(c) for c in cert["normal"]]
     require(not theta and rational(t_lo) <= t <= rational(t_hi), "the exact time lies outside its bracket")
-    A = [mul(RA, vector(v)) for v in pair.a.pieces[cert["a"]["piece"]].vertices]
-    B = [add(mul(RB, vector(v)), dp) for v in pair.b.pieces[cert["b"]["piece"]].vertices]
+    A, B = (body.pieces[cert[key]["piece"]].vertices for key, body in (("a", pair.a), ("b", pair.b)))
+    A, B = [mul(RA, vector(v)) for v in A], [add(mul(RB, vector(v)), dp) for v in B]
     apart_by = min(dot(n, b) for b in B) - max(dot(n, a) for a in A)
     require(dot(n, d) > 0 and apart_by == t * dot(n, d), "the plane does not touch both bodies at t*")
     sums = []

@@ -8,6 +8,7 @@ from weakref import WeakKeyDictionary
 from ofg import Body, Query
 
 from . import _native
+from .exact import exact_time
 from .label import Truth
 
 EFFORT = 1e8  #: vertices visited per case before the prover gives up
@@ -49,6 +50,9 @@ def _sweep(query, found) -> Truth:
         return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate=certificate)
     certificate["hit"] = _inside(query, found["common"])
     t_lo, t_hi, end = found["t_lo"], found["t_hi"], found["end"]
+    if start == "clear" and query.question == "translation" and query.a.kind == query.b.kind == "convex":
+        if exact := exact_time(query, 0, 0, found["tree"][0][-1][2][:3]):
+            certificate["exact"] = exact
     if end["label"] == "clear":
         certificate["end_clear"] = _apart(query, end["tree"])
     if end["label"] == "hit":

@@ -236,7 +236,7 @@ class Prover {
             Exact e(*this, na, nb);
             March m = march(e.placed, s, c.until, margin, 1e3 * e.placed.blur(), 0, effort_, segments);
             if (m.least < c.least) c.least = m.least, c.at = m.at;
-            if (theta_ == 0 && segments.size() > 1 && leaf(e.placed, from, m.t, 'W', unwide(segments.back().n), dd(0)))
+            if (theta_ == 0 && segments.size() > 1 && leaf(e.placed, from, m.t, 'W', unwide(segments.back().n), dd(margin)))
                 segments = {segments.back()};
             if (!m.done) {
                 c.until = m.t;
