@@ -47,6 +47,7 @@ VIEWS = {
     "contained": View(0.5, {"place": "inside"}, which=3),
     "deep": View(0.1, {"kind": "turned copy"}),
     "end_hit": View(0.01, {"feature": "vertex-face"}),
+    "face_count": View(320.0, {"kind": "hulls"}),
     "far_from_origin": View(1e3, {"feature": "vertex-face"}),
     "feature_gap": View(0.1, {"feature": "edge-edge crossing"}, which=9),
     "full_turn": View(1.0, {"place": "in the way"}, (0.6, -0.8, 2.0)),
@@ -165,7 +166,8 @@ def _layer(body: Body, v: np.ndarray, colour: str, corner, step: float, shape) -
         if normal[2] > 1e-9:
             light = 0.66 + 0.34 * np.clip(normal / np.linalg.norm(normal) @ [-0.4, 0.6, 0.7], -0.6, 1)
             _fill(triangle, normal, rgb * light, depth, picture)
-    for edge in mesh.face_adjacency_edges[mesh.face_adjacency_angles > 0.35]:
+    sharp = mesh.face_adjacency_angles > (0.12 if len(body.faces) < 400 else 0.35)
+    for edge in mesh.face_adjacency_edges[sharp]:
         ends = v[edge]
         points = np.linspace(*ends, 2 + int(min(4000, 2 * np.abs(np.diff(ends[:, :2], axis=0)).max())))
         for dx, dy in ((0, 0), (1, 0), (0, 1), (1, 1)):

@@ -9,7 +9,7 @@ from experiments.truth import label
 SWEEPS = [s.name for s in scenarios().values() if s.redraw_if]
 ONE_SIDED = {"deep": {"hit"}}  # bodies with nearly the same centre overlap
 AIMED = ("feature_gap", "sliver", "scale", "tiny_huge", "far_from_origin", "parallel_faces", "hooked_ls", "linked_tori", "graze",
-         "through_hole", "spin_clear")
+         "through_hole", "spin_clear", "face_count")
 
 
 @pytest.mark.parametrize("name", AIMED)

@@ -1,0 +1,29 @@
+"""Two round bodies, or two uneven ones, of a given number of faces, a little apart or a little inside each other."""
+
+from experiments.scenario import Draft, Scenario
+from experiments.shapes import hull, icosphere
+
+from ._place import seat
+
+SUBDIVISIONS = {20: 0, 80: 1, 320: 2, 1280: 3, 5120: 4}
+
+
+def generate(rng, level) -> Draft:
+    kind = ("icospheres", "hulls")[rng.integers(2)]
+    if kind == "icospheres":
+        a = b = icosphere(SUBDIVISIONS[int(level)])
+    else:
+        a, b = (hull(int(level), int(rng.integers(2))) for _ in range(2))
+    s = seat(rng, a, b)
+    s.tags["kind"] = kind
+    return s.apart(rng.choice([1e-1, 1e-2, 1e-3]) * rng.choice([-1, 1]) * s.size)
+
+
+SCENARIO = Scenario(
+    name="face_count",
+    question="overlap",
+    exposes="how cost grows with the number of faces, and how small a share of them a selection of k faces is",
+    axis="faces of each body",
+    levels=tuple(float(n) for n in SUBDIVISIONS),
+    generate=generate,
+)
