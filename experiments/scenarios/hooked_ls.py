@@ -13,7 +13,7 @@ def generate(rng, level) -> Draft:
     form = ("mesh", "union")[rng.integers(2)]
     body = hook(ARM, WIDTH, form)
     far = ARM - WIDTH
-    across = rng.uniform(0.1, 0.9) * far, rng.uniform(-0.7, 0.7) * WIDTH
+    across = rng.uniform(0.1, 0.6) * far, rng.uniform(-0.7, 0.7) * WIDTH
     # B is turned half about z; its upright stands before the end of A's foot, its foot before A's upright.
     b = Pose([0, 0, 0, 1], [far + level * body.size, *across])
     return in_world(rng, Draft(body, body, Pose(), b, tags={"form": form, "aim": level * body.size}))

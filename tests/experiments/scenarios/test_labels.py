@@ -5,6 +5,7 @@ import pytest
 from experiments.scenarios import get, scenarios
 from experiments.scenarios.aim import survey
 from experiments.truth import label
+from ofg import Body, Query
 
 SWEEPS = [s.name for s in scenarios().values() if s.redraw_if]
 ONE_SIDED = {"deep": {"hit"}}  # bodies with nearly the same centre overlap
@@ -53,3 +54,12 @@ def test_place_is_what_its_name_says(name):
             case = scenario.case(12, level, index)
             truth = label(case.query)
             assert truth.start == "hit" or truth.label == expected[case.tags["place"]], case.id
+
+
+@pytest.mark.parametrize("name", ["hooked_ls", "linked_tori"])
+def test_hulls_overlap_where_the_solids_are_clear(name):
+    scenario = get(name)
+    for level in scenario.levels:
+        q = scenario.case(13, level, 0).query
+        hulls = Query("overlap", Body.convex(q.a.vertices), Body.convex(q.b.vertices), q.pose_a, q.pose_b)
+        assert label(hulls).label == "hit"
