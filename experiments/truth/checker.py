@@ -151,7 +151,8 @@ def clear(pair, cert, start, end, gap):
 
 def common(pair, cert, t):
     """One point inside both: in four vertices of one convex piece [piece, i, j, k, l], or by winding number in a mesh (null)."""
-    x = [number(c) for c in cert["point"]]
+    x = [c if type(c) in (float, str) else float(c) for c in cert["point"]]
+    require(len(x) == 3, "a point has three coordinates")
     for of_b, body, where in ((False, pair.a, cert["a"]), (True, pair.b, cert["b"])):
         if body.kind == "mesh":
             yield Within(pair, of_b, None, x, t)
@@ -192,7 +193,7 @@ def apart(o, vertices=None, near=None):
 def within(o, *_):
     RA, RB, dp, d, _, _ = o.pair.exact
     pose = o.pair.query.pose_b if o.of_b else o.pair.query.pose_a
-    x = add(o.x, vector(pose.position), -1)
+    x = add([number(c) for c in o.x], vector(pose.position), -1)
     y = transposed(RB, x) if o.of_b else transposed(RA, o.pair.turn(-rational(o.t), add(x, d, -rational(o.t))))
     if o.corners is None:
         return "" if winding(o.pair.b if o.of_b else o.pair.a, y) else "the point is not inside the mesh"

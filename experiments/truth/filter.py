@@ -10,27 +10,38 @@ from __future__ import annotations
 import numpy as np
 
 from . import checker, geometry
-from .balls import add, nearest_double, vector
+from .balls import add, nearest_double, number, rotation, vector
 
 UNIT = 2.0**-53
 
 
 def settle(obligations) -> list[tuple]:
     """(j, vertices, near) for each obligation j that doubles leave open; indices of what is open in it, None for all."""
-    groups = {kind: [(j, o) for j, o in enumerate(obligations) if type(o) is kind] for kind in (checker.Apart, checker.Within)}
-    left = [(j, None, None) for j, o in enumerate(obligations) if type(o) is checker.Without and not _outside_box(o)]
+    apart = [(j, o) for j, o in enumerate(obligations) if type(o) is checker.Apart]
+    points = [(j, o) for j, o in enumerate(obligations) if type(o) is not checker.Apart]
     with np.errstate(all="ignore"):
-        left += _apart(groups[checker.Apart]) + _within(groups[checker.Within])
-    return sorted(left, key=lambda entry: entry[0])
+        return sorted(_apart(apart) + _points(points), key=lambda entry: entry[0])
+
+
+class Numbers:
+    """The pairs' numbers, a row each: RA, RB (n, 3, 3), dp, d, k (n, 3), theta, reach (n,)."""
+
+    def __init__(self, pairs):
+        seen = {}
+        index = [seen.setdefault(id(p), len(seen)) for p in pairs]
+        rows = np.array([p.row for p in {id(p): p for p in pairs}.values()])
+        k = rows[:, 14:17]
+        self.RA, self.RB, self.dp, self.d, self.k, self.theta, self.reach = (x[index] for x in (
+            _rotation(rows[:, 0:4]), _rotation(rows[:, 4:8]), rows[:, 8:11], rows[:, 11:14],
+            k / np.where(k.any(1), _norm(k), 1.0)[:, None], rows[:, 17], rows[:, 18]))
 
 
 def _apart(jobs) -> list[tuple]:
     if not jobs:
         return []
     os = [o for _, o in jobs]
-    pairs, index = _unique([o.pair for o in os])
-    RA, RB, dp, d, k = (np.array([getattr(p, name) for p in pairs])[index] for name in ("RA", "RB", "dp", "d", "k"))
-    theta, reach = np.array([(p.theta, p.reach) for p in pairs])[index].T
+    N = Numbers([o.pair for o in os])
+    RA, RB, dp, d, k, theta, reach = N.RA, N.RB, N.dp, N.d, N.k, N.theta, N.reach
     n = np.array([[nearest_double(c) for c in o.n] for o in os])
     s, e, gap, turning = (np.array(column) for column in zip(*((o.s, o.e, o.gap, o.turning) for o in os)))
     error = 256 * UNIT * (1 + np.abs(theta)) * np.abs(n).sum(1) * reach
@@ -70,41 +81,74 @@ def _apart(jobs) -> list[tuple]:
     return open_
 
 
-def _within(jobs) -> list[tuple]:
-    """Tetrahedra: the signs of four determinants of corners relative to the point, each by more than 32 L^2 (rho + 8 u L)."""
-    left = [(j, None, None) for j, o in jobs if o.corners is None]
-    jobs = [(j, o) for j, o in jobs if o.corners is not None]
+def _points(jobs) -> list[tuple]:
+    """Points strictly inside or outside: carried into the body's frame, y with error rho; then tetrahedra and meshes."""
     if not jobs:
-        return left
-    x, k, R, d, size = [], [], [], [], []
-    for _, o in jobs:
-        pair, pose = o.pair, o.pair.query.pose_b if o.of_b else o.pair.query.pose_a
-        x.append([nearest_double(c) for c in add(o.x, vector(pose.position), -1)])
-        k.append(pair.k)
-        R.append(pair.RB if o.of_b else pair.RA)
-        d.append(np.zeros(3) if o.of_b else pair.d)
-        size.append((0.0 if o.of_b else -pair.theta * o.t, o.t, pair.reach, pair.theta))
-    x, k, R, d, (angle, t, reach, theta) = np.array(x), np.array(k), np.array(R), np.array(d), np.array(size).T
-    y = _apply(R, _turned(angle, k, x - t[:, None] * d))
-    w = np.array([o.corners for _, o in jobs]) - y[:, None, :]
-    rho = 256 * UNIT * (1 + np.abs(theta)) * (reach + np.abs(x).sum(1))
+        return []
+    os = [o for _, o in jobs]
+    N = Numbers([o.pair for o in os])
+    vertex = np.array([type(o) is checker.Without for o in os])
+    of_b, t = np.array([o.of_b for o in os]), np.array([o.t for o in os])
+    x = np.array([o.v if type(o) is checker.Without else _offset(o) for o in os])
+    span = N.reach + np.abs(x).sum(1)
+    shift = t[:, None] * N.d
+    b = np.where(vertex[:, None], _apply(N.RB.transpose(0, 2, 1), x) + N.dp, x) - shift  # Without: B's vertex seen from A
+    a = _turned(N.theta * t, N.k, _apply(N.RA.transpose(0, 2, 1), x)) + shift - N.dp  # Without: A's vertex seen from B
+    in_a = _apply(N.RA, _turned(-N.theta * t, N.k, b))
+    in_b = _apply(N.RB, np.where(vertex[:, None], a, x))
+    y = np.where((vertex == of_b)[:, None], in_a, in_b)
+    rho = 256 * UNIT * (1 + np.abs(N.theta)) * span
+    solid = np.array([getattr(o, "corners", None) is not None for o in os])
+    open_ = ~solid
+    if solid.any():
+        open_[solid] = ~_in_tetrahedra(np.array([os[i].corners for i in np.flatnonzero(solid)]), y[solid], rho[solid])
+    for i in np.flatnonzero(~solid):
+        o = os[i]
+        mesh = o.pair.a if vertex[i] == of_b[i] else o.pair.b
+        count = winding(mesh, y[i], rho[i])
+        open_[i] = count is None or (count != 0) == vertex[i]
+    return [(jobs[i][0], None, None) for i in np.flatnonzero(open_)]
+
+
+def _in_tetrahedra(corners, y, rho):
+    """Four determinants of corners relative to y have one sign, each by more than 32 L^2 (rho + 8 u L)."""
+    w = corners - y[:, None, :]
     L = np.abs(w).max(axis=(1, 2)) + rho
     bound = 32 * L * L * (rho + 8 * UNIT * L)
     c01, c23 = _cross(w[:, 0], w[:, 1]), _cross(w[:, 2], w[:, 3])
     dets = np.stack([(w[:, 1] * c23).sum(1), -(w[:, 0] * c23).sum(1), (c01 * w[:, 3]).sum(1), -(c01 * w[:, 2]).sum(1)], 1)
-    sure = ((dets > bound[:, None]).all(1) | (dets < -bound[:, None]).all(1)) & (bound > 1e-140) & (bound < 1e140)
-    return left + [(jobs[i][0], None, None) for i in np.flatnonzero(~sure)]
+    return ((dets > bound[:, None]).all(1) | (dets < -bound[:, None]).all(1)) & (bound > 1e-140) & (bound < 1e140)
 
 
-def _outside_box(o) -> bool:
-    """Is the vertex outside the bounding box of the mesh's vertices?"""
-    pair, t = o.pair, o.t
-    if o.of_b:
-        mesh, y = pair.a, pair.RA.T @ _turned(np.array([-pair.theta * t]), pair.k[None], (pair.RB @ o.v + pair.dp - t * pair.d)[None])[0]
-    else:
-        mesh, y = pair.b, pair.RB.T @ (_turned(np.array([pair.theta * t]), pair.k[None], (pair.RA @ o.v)[None])[0] + t * pair.d - pair.dp)
-    error = 256 * UNIT * (1 + abs(pair.theta)) * pair.reach
-    return bool(((y > mesh.vertices.max(0) + error) | (y < mesh.vertices.min(0) - error)).any())
+def _offset(o):
+    """x - p of the body in doubles, each coordinate rounded once."""
+    position = (o.pair.query.pose_b if o.of_b else o.pair.query.pose_a).position.tolist()
+    if all(type(c) is float for c in o.x):
+        return [c - p for c, p in zip(o.x, position)]
+    return [nearest_double(c) for c in add([number(c) for c in o.x], vector(position), -1)]
+
+
+def winding(mesh, y, rho):
+    """Winding number of a mesh about y, each coordinate of which is off by at most rho; None where doubles cannot tell."""
+    low, high = geometry.face_boxes(mesh)
+    for axis in range(3):
+        i, j = (axis + 1) % 3, (axis + 2) % 3
+        met = np.flatnonzero((low[i] <= y[i] + rho) & (high[i] >= y[i] - rho) & (low[j] <= y[j] + rho) & (high[j] >= y[j] - rho)
+                             & (high[axis] >= y[axis] - rho))
+        if not len(met):
+            return 0
+        w = mesh.vertices[mesh.faces[met]] - y
+        L = np.abs(w).max(axis=(1, 2)) + rho
+        bound = 32 * L * (rho + 8 * UNIT * L)
+        edges = np.stack([w[:, c, i] * w[:, (c + 1) % 3, j] - w[:, c, j] * w[:, (c + 1) % 3, i] for c in range(3)], 1)
+        volume = (w[:, 0] * _cross(w[:, 1], w[:, 2])).sum(1)
+        up, down = edges > bound[:, None], edges < -bound[:, None]
+        missed = up.any(1) & down.any(1)
+        told = (up.all(1) | down.all(1)) & (np.abs(volume) > L * bound) & (bound > 1e-140)
+        if (missed | told).all():
+            forward = told & (up[:, 0] == (volume > 0))
+            return int(up[forward, 0].sum()) - int(down[forward, 0].sum())
+    return None
 
 
 def crossed(mesh, y, ray) -> np.ndarray:
@@ -129,10 +173,10 @@ def _blocks(arrays):
     return np.concatenate(arrays), np.concatenate([[0], np.cumsum(counts)[:-1]]), np.repeat(np.arange(len(arrays)), counts)
 
 
-def _unique(pairs):
-    seen = {}
-    index = [seen.setdefault(id(p), len(seen)) for p in pairs]
-    return list({id(p): p for p in pairs}.values()), np.array(index)
+def _rotation(q):
+    """(n, 4) -> (n, 3, 3), rows of N(q) / |q|^2."""
+    w, x, y, z = (q / np.abs(q).max(1)[:, None]).T
+    return np.moveaxis(np.array(rotation(w, x, y, z)), 2, 0)
 
 
 def _apply(R, v):

@@ -10,20 +10,22 @@ from flint import arb
 
 from .balls import add, cross, dot, norm, rational, rotation, vector
 
-_reaches, _parts = WeakKeyDictionary(), WeakKeyDictionary()
+_reaches, _parts, _boxes = WeakKeyDictionary(), WeakKeyDictionary(), WeakKeyDictionary()
 
 
 class Pair:
-    """A query taken apart. In doubles: dp = p_B - p_A, d, unit axis k, theta, rotations RA, RB; `reach` bounds all coordinates."""
+    """A query taken apart. row: its numbers in doubles for the filter: q_A, q_B (4 each), dp = p_B - p_A, d, the motion's axis
+    divided by its largest component (3 each), theta, and a bound on |v|_1 + |b|_1 + |dp|_1 + |d|_1."""
 
     def __init__(self, query):
         m = query.motion
-        self.query, self.a, self.b = query, query.a, query.b
-        self.theta, self.d = float(m.angle), m.displacement
-        self.dp = query.pose_b.position - query.pose_a.position
-        self.k = m.axis / np.linalg.norm(m.axis / np.abs(m.axis).max()) / np.abs(m.axis).max() if self.theta else np.zeros(3)
-        self.RA, self.RB = (np.array(rotation(*p.quaternion.tolist())) for p in (query.pose_a, query.pose_b))
-        self.reach = reach(self.a) + reach(self.b) + sum(map(abs, self.dp.tolist())) + sum(map(abs, self.d.tolist()))
+        self.query, self.a, self.b, self.theta = query, query.a, query.b, float(m.angle)
+        d, axis, pa, pb = m.displacement.tolist(), m.axis.tolist(), query.pose_a.position.tolist(), query.pose_b.position.tolist()
+        dp = [y - x for x, y in zip(pa, pb)]
+        top = max(map(abs, axis)) or 1.0
+        span = reach(self.a) + reach(self.b) + sum(map(abs, dp)) + sum(map(abs, d))
+        self.row = [*query.pose_a.quaternion.tolist(), *query.pose_b.quaternion.tolist(), *dp, *d, *(c / top for c in axis),
+                    self.theta, span]
 
     @cached_property
     def exact(self):
@@ -87,3 +89,11 @@ def reach(body) -> float:
     if body not in _reaches:
         _reaches[body] = float(np.abs(body.vertices).sum(axis=1).max())
     return _reaches[body]
+
+
+def face_boxes(mesh):
+    """(3, m) lower and upper bounds of each face."""
+    if mesh not in _boxes:
+        corners = mesh.vertices[mesh.faces]
+        _boxes[mesh] = np.ascontiguousarray(corners.min(1).T), np.ascontiguousarray(corners.max(1).T)
+    return _boxes[mesh]
