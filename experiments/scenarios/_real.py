@@ -3,10 +3,9 @@
 import numpy as np
 
 from experiments.scenario import Draft
+from experiments.scenarios._place import touching
 from experiments.shapes import CONVEX_MESHES, real_concave, real_convex, real_pieces
 from ofg import Body, Motion, Pose
-
-from ._place import touching
 
 CONVEX = tuple(CONVEX_MESHES)
 SURFACES = ("cone", "lower_leg", "shin", "knuckle", "shape_sorter", "guide", "bunny")

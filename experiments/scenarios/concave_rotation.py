@@ -3,10 +3,9 @@
 import numpy as np
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import in_world
 from experiments.shapes import box, frame, hook
 from ofg import Motion, Pose
-
-from ._place import in_world
 
 HOLE = 0.5
 

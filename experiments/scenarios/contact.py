@@ -3,10 +3,9 @@
 import numpy as np
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import seat
 from experiments.shapes import any_convex
 from ofg import Motion
-
-from ._place import seat
 
 
 def generate(rng, level) -> Draft:

@@ -1,10 +1,9 @@
 """A body and its own copy, or another body, with nearly or exactly the same centre."""
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import any_direction, any_rotation, in_world
 from experiments.shapes import any_convex
 from ofg import Pose
-
-from ._place import any_direction, any_rotation, in_world
 
 
 def generate(rng, level) -> Draft:

@@ -1,9 +1,8 @@
 """Two round bodies, or two uneven ones, of a given number of faces, a little apart or a little inside each other."""
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import seat
 from experiments.shapes import hull, icosphere
-
-from ._place import seat
 
 SUBDIVISIONS = {20: 0, 80: 1, 320: 2, 1280: 3, 5120: 4}
 

@@ -3,9 +3,8 @@
 import numpy as np
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import any_direction, seat
 from experiments.shapes import any_convex, hull_of
-
-from ._place import any_direction, seat
 
 
 def generate(rng, level) -> Draft:

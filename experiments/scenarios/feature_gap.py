@@ -1,9 +1,8 @@
 """Two convex bodies with one feature each a prescribed distance apart, or inside each other by as much."""
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import seat
 from experiments.shapes import any_convex
-
-from ._place import seat
 
 
 def generate(rng, level) -> Draft:

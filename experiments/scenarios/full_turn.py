@@ -3,8 +3,7 @@
 import numpy as np
 
 from experiments.scenario import Draft, Scenario
-
-from ._place import in_world, spin_beside
+from experiments.scenarios._place import in_world, spin_beside
 
 
 def generate(rng, level) -> Draft:

@@ -1,10 +1,9 @@
 """A body slides past another with a prescribed clearance, or scrapes it by as much, on a path parallel to the contact plane."""
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import seat
 from experiments.shapes import any_convex
 from ofg import Motion
-
-from ._place import seat
 
 
 def generate(rng, level) -> Draft:

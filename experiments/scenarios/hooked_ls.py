@@ -1,10 +1,9 @@
 """Two L's, each with its arm in the corner of the other, an arm's end near the other's side or inside it."""
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import in_world
 from experiments.shapes import hook
 from ofg import Pose
-
-from ._place import in_world
 
 ARM, WIDTH = 1.0, 0.25
 

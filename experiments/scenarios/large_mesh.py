@@ -1,10 +1,9 @@
 """Meshes of real objects of thousands of faces, the extreme vertex of one held near a point of the other's surface."""
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import in_world, touching
 from experiments.shapes import LARGE_MESHES, real_concave
 from ofg import Pose
-
-from ._place import in_world, touching
 
 
 def generate(rng, level) -> Draft:

@@ -3,10 +3,9 @@
 import numpy as np
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import in_world
 from experiments.shapes import torus
 from ofg import Pose
-
-from ._place import in_world
 
 RADIUS, AROUND = 0.75, 8
 

@@ -42,8 +42,9 @@ closely the certified gap comes to the one aimed at.
 
 ## A family of your own
 
-Copy `feature_gap.py`, which is complete, into this folder, or anywhere else and give its path instead of a name. A
-scenario draws everything from the `rng` it is given and returns a `Draft`; `Scenario.case(seed, level, index)` makes the
+Copy `feature_gap.py`, which is complete, change its name, and give the file's path wherever a scenario's name is asked for. To make
+it one of these, put it into this folder (the file is called like the scenario), say in `draw.py` which of its cases to show, and
+run the two commands at the top of this page. A scenario draws everything from the `rng` it is given and returns a `Draft`; `Scenario.case(seed, level, index)` makes the
 same case for the same arguments whatever was made before. Bodies come from `experiments/shapes.py` or from
 `ofg.Body`; `_place.py` has the constructions that several families share. `redraw_if=("start-overlap",)` draws a sweep
 again whose truth is that it starts in overlap.

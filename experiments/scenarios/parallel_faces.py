@@ -3,10 +3,9 @@
 from dataclasses import replace
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import seat
 from experiments.shapes import any_convex, box, hull_of, scaled
 from ofg import Body
-
-from ._place import seat
 
 
 def generate(rng, level) -> Draft:

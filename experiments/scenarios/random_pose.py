@@ -1,10 +1,9 @@
 """Random bodies in random poses at a distance of their centres: the control, as most published comparisons are made."""
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import any_direction, any_rotation, in_world
 from experiments.shapes import any_convex
 from ofg import Pose
-
-from ._place import any_direction, any_rotation, in_world
 
 
 def generate(rng, level) -> Draft:

@@ -1,9 +1,8 @@
 """Meshes of real objects thrown at one another while they turn: onto a point of the surface, just short of it, or past."""
 
 from experiments.scenario import Draft, Scenario
-
-from ._place import in_world
-from ._real import throw
+from experiments.scenarios._place import in_world
+from experiments.scenarios._real import throw
 
 
 def generate(rng, level) -> Draft:

@@ -1,10 +1,9 @@
 """Meshes of real objects, convex and concave, the extreme vertex of one held near a point of the other's surface."""
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import in_world, touching
+from experiments.scenarios._real import any_pair
 from ofg import Pose
-
-from ._place import in_world, touching
-from ._real import any_pair
 
 
 def generate(rng, level) -> Draft:

@@ -1,9 +1,8 @@
 """Meshes of real objects thrown at a point of one another's surface, from outside: right through, just short of it, or past."""
 
 from experiments.scenario import Draft, Scenario
-
-from ._place import in_world
-from ._real import throw
+from experiments.scenarios._place import in_world
+from experiments.scenarios._real import throw
 
 
 def generate(rng, level) -> Draft:

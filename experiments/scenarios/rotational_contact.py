@@ -3,10 +3,9 @@
 import numpy as np
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import any_direction, in_world, touching
 from experiments.shapes import any_convex
 from ofg import Motion, Pose
-
-from ._place import any_direction, in_world, touching
 
 
 def generate(rng, level) -> Draft:

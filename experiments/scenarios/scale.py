@@ -1,9 +1,8 @@
 """The same contact in every unit of length: both bodies, and the gap, times one factor."""
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import seat
 from experiments.shapes import any_convex, scaled
-
-from ._place import seat
 
 
 def generate(rng, level) -> Draft:

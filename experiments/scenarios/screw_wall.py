@@ -3,8 +3,7 @@
 from dataclasses import replace
 
 from experiments.scenario import Draft, Scenario
-
-from ._place import any_direction, flight_through, in_world
+from experiments.scenarios._place import any_direction, flight_through, in_world
 
 
 def generate(rng, level) -> Draft:

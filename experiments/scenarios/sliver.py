@@ -1,9 +1,8 @@
 """Needles and plates that nearly touch or just meet: bodies of extreme aspect, a gap of half their thickness or less."""
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import seat
 from experiments.shapes import any_convex, plate, rod
-
-from ._place import seat
 
 PAIRS = {  # what meets, and by which features
     "needle on needle": "edge-edge crossing",

@@ -3,10 +3,9 @@
 import numpy as np
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import in_world
 from experiments.shapes import box, rod
 from ofg import Motion, Pose
-
-from ._place import in_world
 
 
 def generate(rng, level) -> Draft:

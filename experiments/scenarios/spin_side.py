@@ -1,8 +1,7 @@
 """A rod turns about its own centre and its end runs into a body at its side, or passes it; both ends of the step are clear."""
 
 from experiments.scenario import Draft, Scenario
-
-from ._place import in_world, spin_beside
+from experiments.scenarios._place import in_world, spin_beside
 
 
 def generate(rng, level) -> Draft:

@@ -1,8 +1,7 @@
 """A body flies through a thin wall within one step, or past its rim; both ends of the step are clear."""
 
 from experiments.scenario import Draft, Scenario
-
-from ._place import flight_through, in_world
+from experiments.scenarios._place import flight_through, in_world
 
 
 def generate(rng, level) -> Draft:

@@ -3,10 +3,9 @@
 import numpy as np
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import any_rotation, in_world
 from experiments.shapes import any_convex, frame, scaled
 from ofg import Motion, Pose
-
-from ._place import any_rotation, in_world
 
 HOLE, SIDES = 0.5, 4
 

@@ -1,9 +1,8 @@
 """A tiny body at a feature of a huge one, a tenth of the tiny one's size away from it or inside it."""
 
 from experiments.scenario import Draft, Scenario
+from experiments.scenarios._place import seat
 from experiments.shapes import any_convex, scaled
-
-from ._place import seat
 
 
 def generate(rng, level) -> Draft:

@@ -1,8 +1,11 @@
 """What every family must keep: the same case for the same arguments, float32 inputs, bodies that are what they say."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+import experiments.scenarios.feature_gap
 from experiments.scenario import Scenario, snap
 from experiments.scenarios import get, load_file, scenarios
 
@@ -68,6 +71,14 @@ def test_load_file_reads_a_scenario_of_ones_own(tmp_path):
         "SCENARIO = Scenario('mine', 'overlap', 'nothing', 'gap', (0.5, -0.5), generate)\n")
     (mine,) = load_file(path)
     assert isinstance(mine, Scenario) and mine.case(0, 0.5, 0).query.pose_b.position[0] == 1.5
+
+
+def test_a_family_copied_elsewhere_and_renamed_is_a_scenario(tmp_path):
+    path = tmp_path / "my_gap.py"
+    path.write_text(Path(experiments.scenarios.feature_gap.__file__).read_text().replace('"feature_gap"', '"my_gap"'))
+    (mine,) = load_file(path)
+    assert mine.case(0, 0.1, 0).query.question == "overlap" and get("my_gap") is mine
+    scenarios().pop("my_gap")
 
 
 @pytest.mark.parametrize("text", ["", "SCENARIO = 3", "SCENARIOS = [1]"])
