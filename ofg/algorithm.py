@@ -35,7 +35,7 @@ def discrete(a: Body, b: Body, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, 
     precision: "double" or "float" (the relative pose is in double always).
     repairs: "none", "all", "all-but-X", "X" or "X+Y" of the names below; or one by one:
     selection="point-triangle" (point-triangle), adaptive_k=True (adaptive-k), broad="swept" (swept-spheres), both_vertices=True
-    (both-vertices), edge_edge=True (edge-edge), selections=3 (selection-times), arc_tolerance=1e-3 (arcs), containment=True (containment),
+    (both-vertices), edge_edge=True (edge-edge), selections=3 (selection-times), arc_tolerance=1e-6 (arcs: chords stray by no more than this share of A's radius), containment=True (containment),
     concave="all-pairs" (all-pieces), earliest=True (earliest).
 
     Raises ValueError or TypeError for an option that is unknown or out of range. Source: Kara, "Opposing Face Geometry", GameDev.net 2004.

@@ -9,7 +9,7 @@ import numpy as np
 #: what the hit is, in the order of the core's codes
 FOUND = ("nothing", "start", "end", "edge-face", "face-edge", "edge-edge", "inside")
 #: what is counted: see `Answer.counts`
-COUNTS = ("spheres", "distances", "face_pairs", "edge_faces", "edge_pairs", "full_tests", "steps")
+COUNTS = ("spheres", "distances", "face_pairs", "edge_faces", "edge_pairs", "full_tests", "evaluated", "steps")
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,8 @@ class Answer:
     pieces: (piece of A, piece of B) that were asked; -1 for an undivided mesh.
     estimate: "velocity", "bisection" or "none": how the time was found.
     counts: operations by kind: spheres (pairs compared), distances (point to face or piece), face_pairs (settled), edge_faces (virtual
-    edges against faces), edge_pairs, full_tests (of face_pairs: not settled by a cheap rejection), steps (parts of the step, halvings).
+    edges against faces), edge_pairs, full_tests (of face_pairs: not settled by a cheap rejection), evaluated (distances computed to settle
+    `distances`, to faces and to boxes of blocks of faces), steps (parts of the step, halvings).
     """
 
     hit: bool
@@ -40,7 +41,7 @@ class Answer:
 @dataclass(frozen=True, eq=False)
 class Answers:
     """The fields of `Answer` as arrays over n queries: hit (n,) bool, time (n,) float64, found (n,) int8 (codes: index into FOUND),
-    faces and pieces (n, 2) int32, counts (n, 7) int64 in the order of COUNTS. answers[i] is one Answer."""
+    faces and pieces (n, 2) int32, counts (n, 8) int64 in the order of COUNTS. answers[i] is one Answer."""
 
     hit: np.ndarray
     time: np.ndarray

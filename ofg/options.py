@@ -19,7 +19,7 @@ REPAIRS: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {
     "both-vertices": ({"both_vertices": True}, {"both_vertices": False}),
     "edge-edge": ({"edge_edge": True}, {"edge_edge": False}),
     "selection-times": ({"selections": 3}, {"selections": 1}),
-    "arcs": ({"arc_tolerance": 1e-3}, {"arc_tolerance": 0.0}),
+    "arcs": ({"arc_tolerance": 1e-6}, {"arc_tolerance": 0.0}),
     "containment": ({"containment": True}, {"containment": False}),
     "all-pieces": ({"concave": "all-pairs"}, {"concave": "object"}),
     "earliest": ({"earliest": True}, {"earliest": False}),

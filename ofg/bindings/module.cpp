@@ -86,9 +86,9 @@ struct Prepared {
   }
 };
 
-constexpr int columns = 7;
+constexpr int columns = 8;
 void count(const ofg::Counts& c, std::int64_t* to) {
-  const std::int64_t all[columns] = {c.spheres, c.distances, c.face_pairs, c.edge_faces, c.edge_pairs, c.full_tests, c.steps};
+  const std::int64_t all[columns] = {c.spheres, c.distances, c.face_pairs, c.edge_faces, c.edge_pairs, c.full_tests, c.evaluated, c.steps};
   std::copy(all, all + columns, to);
 }
 
@@ -167,6 +167,8 @@ nb::ndarray<nb::numpy, bool> triangles_meet(Doubles pairs) {
 }
 
 NB_MODULE(_core, m) {
+  m.def("set_isa", [](int isa) { return ofg::set_isa(ofg::Isa(isa)); }, "isa"_a, "0: SSE2, 1: AVX2, 2: AVX-512. False where the machine lacks it.");
+  m.def("widest_isa", [] { return int(ofg::widest_isa()); });
   m.def("triangles_meet", &triangles_meet<double>, "pairs"_a);
   m.def("triangles_meet_float", &triangles_meet<float>, "pairs"_a);
   nb::class_<Solid>(m, "Solid")

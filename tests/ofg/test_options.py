@@ -49,4 +49,4 @@ def test_every_repair_is_a_switch_of_its_own():
         assert len(changed) == (0 if name == "swept-spheres" else 1), name  # swept spheres are the default reading of step 1
         all_but = core_options(repairs=f"all-but-{name}")
         assert sum(getattr(all_but, f) != getattr(core_options(repairs="all"), f) for f in fields) == 1, name
-    assert repair_options("arcs+containment") == {"arc_tolerance": 1e-3, "containment": True}
+    assert repair_options("arcs+containment") == {"arc_tolerance": 1e-6, "containment": True}

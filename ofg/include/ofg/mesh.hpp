@@ -1,11 +1,12 @@
 // What is known of a body before any question is asked: vertices and face centres in structure-of-arrays.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
 
-#include "triangle.hpp"
+#include "separation.hpp"
 
 namespace ofg {
 
@@ -17,6 +18,65 @@ struct Points {
   int size() const { return int(x.size()); }
 };
 
+// The centres of the faces in blocks of block_faces neighbours, so that most blocks can be passed over by their boxes.
+template <class T>
+struct Blocks {
+  std::vector<T> x, y, z, lo[3], hi[3];
+  std::vector<int> face;  // of each slot
+  int count = 0;
+
+  BlockView<T> view() const {
+    return {x.data(), y.data(), z.data(), face.data(), {lo[0].data(), lo[1].data(), lo[2].data()}, {hi[0].data(), hi[1].data(), hi[2].data()},
+            int(face.size()), count};
+  }
+
+  explicit Blocks(const Points<T>& centres = {}) {
+    face.resize(std::size_t(centres.size()));
+    for (std::size_t i = 0; i < face.size(); ++i) face[i] = int(i);
+    split(centres, 0, face.size());
+    count = int((face.size() + block_faces - 1) / block_faces);
+    constexpr T inf = std::numeric_limits<T>::infinity();
+    const std::size_t padded = std::size_t(count + block_faces - 1) / block_faces * block_faces;
+    for (int i = 0; i < 3; ++i) lo[i].assign(padded, inf), hi[i].assign(padded, inf);
+    for (std::size_t i = 0; i < std::size_t(count) * block_faces; ++i) {
+      const Vec3<T> c = i < face.size() ? centres[std::size_t(face[i])] : Vec3<T>(inf, inf, inf);
+      x.push_back(c.x), y.push_back(c.y), z.push_back(c.z);
+      if (i >= face.size()) continue;
+      const T at[3] = {c.x, c.y, c.z};
+      for (int j = 0; j < 3; ++j) {
+        T &l = lo[j][i / block_faces], &h = hi[j][i / block_faces];
+        const bool first = i % block_faces == 0;
+        l = first || at[j] < l ? at[j] : l;
+        h = first || at[j] > h ? at[j] : h;
+      }
+    }
+  }
+
+ private:
+  // Halves along the longest side, at a whole number of blocks.
+  void split(const Points<T>& c, std::size_t from, std::size_t to) {
+    if (to - from <= block_faces) {
+      std::sort(face.begin() + long(from), face.begin() + long(to));
+      return;
+    }
+    const std::vector<T>* axis[3] = {&c.x, &c.y, &c.z};
+    const std::vector<T>* longest = axis[0];
+    T most = -1;
+    for (const auto* a : axis) {
+      T l = (*a)[std::size_t(face[from])], h = l;
+      for (std::size_t i = from; i < to; ++i) l = std::min(l, (*a)[std::size_t(face[i])]), h = std::max(h, (*a)[std::size_t(face[i])]);
+      if (h - l > most) most = h - l, longest = a;
+    }
+    const std::size_t middle = from + ((to - from) / 2 + block_faces - 1) / block_faces * block_faces;
+    const auto before = [&](int i, int j) {
+      const T a = (*longest)[std::size_t(i)], b = (*longest)[std::size_t(j)];
+      return a < b || (a == b && i < j);
+    };
+    std::nth_element(face.begin() + long(from), face.begin() + long(middle), face.begin() + long(to), before);
+    split(c, from, middle), split(c, middle, to);
+  }
+};
+
 // One triangle mesh. `convex` promises that it bounds a convex solid with outward faces.
 template <class T>
 struct Mesh {
@@ -25,6 +85,9 @@ struct Mesh {
   std::vector<std::array<int, 3>> face_edges;  // of each face, the edges ab, bc, ca
   std::vector<std::array<int, 2>> edges;       // each undirected edge once
   Points<T> centres;                           // of the faces: the mean of three vertices
+  Blocks<T> blocks;                            // the same centres, for the selection
+  std::vector<T> corners;                      // of each face: nine coordinates in a row
+  Cloud<T> cloud;                              // the vertices, for supports
   std::vector<T> face_radius;                  // from a face's centre to its farthest vertex, rounded up
   Vec3<T> centre;                              // mean of the vertices
   T radius = 0;                                // from `centre` to the farthest vertex, rounded up
@@ -66,7 +129,11 @@ struct Mesh {
         own[j] = at->second;
       }
       face_edges.push_back(own);
+      corners.insert(corners.end(), {t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z});
     }
+    blocks = Blocks<T>(centres);
+    for (std::size_t i = 0; i < n; ++i) cloud.push(vertices[i]);
+    cloud.pad();
   }
 
   int size() const { return int(faces.size()); }

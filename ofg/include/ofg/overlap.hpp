@@ -14,16 +14,33 @@ T scale_of(const Mesh<T>& a, const Mesh<T>& b, const Vec3<T>& p) {
 
 inline bool spheres_apart(const Vec3<double>& between, double sum) { return dot(between, between) > sum * sum; }
 
-// Step 8: face against face, the nearest first, until two meet.
+// Step 8: face against face, the nearest first, until two meet. After the first row, one plane between the two selections
+// settles all other pairs, if there is one; the planes of the faces settle most of what is left.
 template <class T>
-bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Answer& answer) {
-  for (int i = 0; i < a.size(); ++i)
+bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Workspace<T>& w, Answer& answer) {
+  const T slack = rounding<T> * scale;
+  const TriangleView<T> faces = b.view();
+  for (int i = 0; i < a.size(); ++i) {
+    if (i == 1) {
+      Vec3<T> axis = a.triangle(0).a - b.triangle(0).a;
+      const auto least = [&](const Vec3<T>& v) { return a.least(v, w.scratch.data(), 0, 1) - b.least(-v, w.scratch.data(), 0, 1); };
+      if (separated(axis, 4 * slack, least)) {
+        answer.counts.face_pairs += std::int64_t(a.size() - 1) * b.size();
+        return false;
+      }
+    }
+    const Triangle<T> t = a.triangle(i);
+    const T corners[9] = {t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
+    kernels<T>.planes_apart(faces, b.padded(), corners, slack, w.flags.data());
     for (int j = 0; j < b.size(); ++j) {
-      ++answer.counts.face_pairs, ++answer.counts.full_tests;
-      if (!triangles_meet(a.triangle[i], b.triangle[j], scale)) continue;
-      answer.face_a = a.near[i].face, answer.face_b = b.near[j].face;
+      ++answer.counts.face_pairs;
+      if (w.flags[std::size_t(j)]) continue;
+      ++answer.counts.full_tests;
+      if (!triangles_meet(t, b.triangle(j), scale)) continue;
+      answer.face_a = a.near[std::size_t(i)].face, answer.face_b = b.near[std::size_t(j)].face;
       return true;
     }
+  }
   return false;
 }
 
@@ -57,9 +74,9 @@ Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Opt
   select(b, &centre_a, 1, o, w.a.radius, w, w.b, counts);  // 4, 5, 7
   ++counts.spheres;
   if (detail::spheres_apart(Vec3<double>(centre_a - w.b.centre), double(w.a.radius) + double(w.b.radius) + slack)) return answer;  // 6
-  place(a, to_b, w.a);
-  place(b, w.b);
-  answer.hit = detail::faces_meet(w.a, w.b, detail::scale_of(a, b, to_b.p), answer);  // 8
+  gather(a, to_b, w.a);
+  gather(b, w.b);
+  answer.hit = detail::faces_meet(w.a, w.b, detail::scale_of(a, b, to_b.p), w, answer);  // 8
   if (answer.hit) answer.found = Found::start;
   return answer;
 }

@@ -11,21 +11,34 @@
 namespace ofg {
 
 template <class T>
-struct Candidate {
-  T distance;  // squared
-  int face;
-  bool operator<(const Candidate& c) const { return distance < c.distance || (distance == c.distance && face < c.face); }
-};
-
-template <class T>
 struct Selection {
-  std::vector<Candidate<T>> near;     // nearest first; equal distances in the order of the faces
-  std::vector<Triangle<T>> triangle;  // the same faces, in B's frame
-  std::vector<int> vertices, edges;   // of the selected faces, each once, nearest first
+  std::vector<Candidate<T>> near;  // nearest first; equal distances in the order of the faces
+  std::vector<T> x, y, z;          // corners of the same faces where they were placed: all a, then all b, then all c, each padded
+  std::vector<int> vertices, edges;         // of the selected faces, each once, nearest first
   std::vector<int> vertex_face, edge_face;  // a selected face each belongs to
-  Vec3<T> centre;                     // mean of the faces' centres, in the body's own frame
-  T radius = 0;                       // from `centre` to the farthest vertex of the faces, rounded up
+  Vec3<T> centre;                  // mean of the faces' centres, in the body's own frame
+  T radius = 0;                    // from `centre` to the farthest vertex of the faces, rounded up
+
   int size() const { return int(near.size()); }
+  int padded() const { return (size() + lanes<T> - 1) / lanes<T> * lanes<T>; }
+  TriangleView<T> view() const {
+    const T *px = x.data(), *py = y.data(), *pz = z.data();
+    const int n = padded();
+    return {{px, py, pz, px + n, py + n, pz + n, px + 2 * n, py + 2 * n, pz + 2 * n}};
+  }
+  Triangle<T> triangle(int i) const {
+    const std::size_t a = std::size_t(i), n = std::size_t(padded()), b = a + n, c = b + n;
+    return {{x[a], y[a], z[a]}, {x[b], y[b], z[b]}, {x[c], y[c], z[c]}};
+  }
+  // The corner least along an axis, of the first `copies` of the selection.
+  Vec3<T> least(const Vec3<T>& axis, T* scratch, int from, int copies) const {
+    const T v[3] = {axis.x, axis.y, axis.z};
+    const int n = 3 * padded(), first = from * n;
+    int at;
+    kernels<T>.support(x.data() + first, y.data() + first, z.data() + first, copies * n, v, scratch, &at);
+    const std::size_t i = std::size_t(first + at);
+    return {x[i], y[i], z[i]};
+  }
 };
 
 // All memory a query needs. Reserve once for the largest meshes; then no query allocates. One per thread.
@@ -35,20 +48,24 @@ struct Workspace {
   std::vector<Candidate<T>> candidates;
   std::vector<std::uint32_t> seen_face, seen_vertex, seen_edge;
   std::uint32_t epoch = 0;
-  std::vector<Vec3<T>> from, to;  // ends of virtual edges
+  std::vector<T> scratch, scratch_bound, box[6];
+  std::vector<int> list;
+  std::vector<typename IntOf<T>::type> ids;
+  std::vector<unsigned char> flags;
 
   void reserve(const Mesh<T>& ma, const Mesh<T>& mb) {
-    const std::size_t f = std::max(ma.faces.size(), mb.faces.size());
-    const std::size_t v = std::max(ma.vertices.x.size(), mb.vertices.x.size()), e = std::max(ma.edges.size(), mb.edges.size());
+    const std::size_t f = std::max(ma.faces.size(), mb.faces.size()) + 2 * block_faces;
+    const std::size_t v = std::max(ma.vertices.x.size(), mb.vertices.x.size()), e = std::max(ma.edges.size(), mb.edges.size()) + 2 * block_faces;
     if (f <= seen_face.size() && v <= seen_vertex.size() && e <= seen_edge.size()) return;
+    const auto grow = [](auto& vector, std::size_t n) { vector.resize(std::max(n, vector.size())); };
     for (auto* s : {&a, &b}) {
-      s->near.reserve(f), s->triangle.reserve(f), s->vertices.reserve(v), s->vertex_face.reserve(v);
-      s->edges.reserve(e), s->edge_face.reserve(e);
+      s->near.reserve(f), s->vertices.reserve(v), s->vertex_face.reserve(v), s->edges.reserve(e), s->edge_face.reserve(e);
+      grow(s->x, 6 * f), grow(s->y, 6 * f), grow(s->z, 6 * f);
     }
-    candidates.reserve(f);
-    seen_face.resize(std::max(f, seen_face.size())), seen_vertex.resize(std::max(v, seen_vertex.size()));
-    seen_edge.resize(std::max(e, seen_edge.size()));
-    from.reserve(v), to.reserve(v);
+    candidates.reserve(std::max<std::size_t>(f, most_ranked));
+    grow(seen_face, f), grow(seen_vertex, v), grow(seen_edge, e);
+    grow(scratch, std::max(6 * f, v + 2 * block_faces)), grow(scratch_bound, f), grow(list, f), grow(ids, f + most_ranked), grow(flags, std::max(f, e));
+    for (auto& side : box) grow(side, e);
   }
   void reserve(const Body<T>& ba, const Body<T>& bb) {
     reserve(ba.whole, bb.whole);
@@ -66,41 +83,61 @@ struct Workspace {
 
 namespace detail {
 
-// Insertion beats a partial sort while the selection fits in a few cache lines.
-constexpr int insertion_limit = 32;
-
 template <class T>
 void k_nearest(std::vector<Candidate<T>>& c, int k) {
-  if (k >= int(c.size())) {
-    std::sort(c.begin(), c.end());
-  } else if (k > insertion_limit) {
-    std::partial_sort(c.begin(), c.begin() + k, c.end());
-  } else {
-    Candidate<T> best[insertion_limit];
-    int n = 0;
-    for (const auto& x : c) {
-      if (n == k && !(x < best[n - 1])) continue;
-      int i = n < k ? n++ : k - 1;
-      for (; i > 0 && x < best[i - 1]; --i) best[i] = best[i - 1];
-      best[i] = x;
-    }
-    std::copy(best, best + n, c.begin());
+  if (k < int(c.size())) {
+    std::nth_element(c.begin(), c.begin() + k, c.end());
+    c.resize(std::size_t(k));
   }
-  if (k < int(c.size())) c.resize(std::size_t(k));
+  std::sort(c.begin(), c.end());
 }
 
+// By centres, in blocks: what most queries do.
 template <class T>
-T squared_distance_to(const Mesh<T>& m, int f, const Vec3<T>& p, Nearest nearest) {
-  if (nearest == Nearest::triangle) return squared_distance(p, m.triangle(f));
-  const Vec3<T> d = m.centres[f] - p;
-  return dot(d, d);
+void nearest_centres(const Mesh<T>& m, const Vec3<T>& point, int k, Workspace<T>& w, Counts& counts) {
+  const T p[3] = {point.x, point.y, point.z};
+  NearestScratch<T> scratch{w.scratch_bound.data(), w.scratch.data(), w.list.data(), w.ids.data()};
+  w.candidates.resize(std::size_t(std::max(m.size(), most_ranked)));
+  int evaluated;
+  const int n = kernels<T>.nearest(m.blocks.view(), p, k, scratch, w.candidates.data(), &evaluated);
+  counts.evaluated += evaluated;
+  w.candidates.resize(std::size_t(n));
+  if (n > k) k_nearest(w.candidates, k);
+}
+
+// By any distance, face by face.
+template <class T>
+void all_distances(const Mesh<T>& m, const Vec3<T>& p, Nearest nearest, Workspace<T>& w, Counts& counts) {
+  w.candidates.clear();
+  for (int f = 0; f < m.size(); ++f) {
+    const Vec3<T> d = m.centres[std::size_t(f)] - p;
+    w.candidates.push_back({nearest == Nearest::triangle ? squared_distance(p, m.triangle(f)) : dot(d, d), f});
+  }
+  counts.evaluated += m.size();
 }
 
 // No point of the face is within `reach` of the point.
 template <class T>
 bool out_of_reach(const Mesh<T>& m, const Candidate<T>& c, T reach, Nearest nearest) {
-  const T far = reach + rounding<T> * (m.extent + reach) + (nearest == Nearest::centre ? m.face_radius[c.face] : T(0));
+  const T far = reach + rounding<T> * (m.extent + reach) + (nearest == Nearest::centre ? m.face_radius[std::size_t(c.face)] : T(0));
   return c.distance > far * far;
+}
+
+template <class T>
+void bound(const Mesh<T>& m, Selection<T>& s) {
+  Vec3<T> sum;
+  for (const auto& x : s.near) sum = sum + m.centres[std::size_t(x.face)];
+  s.centre = sum * (T(1) / T(s.size()));
+  T most = 0;
+  for (const auto& x : s.near) {
+    const T* c = &m.corners[9 * std::size_t(x.face)];
+    for (int i = 0; i < 9; i += 3) {
+      const Vec3<T> d = Vec3<T>(c[i], c[i + 1], c[i + 2]) - s.centre;
+      const T far = dot(d, d);
+      most = far > most ? far : most;
+    }
+  }
+  s.radius = std::sqrt(most) + rounding<T> * m.extent;
 }
 
 }  // namespace detail
@@ -110,50 +147,54 @@ bool out_of_reach(const Mesh<T>& m, const Candidate<T>& c, T reach, Nearest near
 template <class T>
 void select(const Mesh<T>& m, const Vec3<T>* points, int n_points, const Options& o, T reach, Workspace<T>& w, Selection<T>& s,
             Counts& counts) {
+  counts.distances += std::int64_t(n_points) * m.size();
+  if (n_points == 1 && !o.adaptive_k && o.nearest == Nearest::centre && o.k <= block_faces) {
+    detail::nearest_centres(m, points[0], o.k, w, counts);
+    s.near.swap(w.candidates);
+    detail::bound(m, s);
+    return;
+  }
   const std::uint32_t epoch = w.next_epoch();
   s.near.clear();
+  const auto take = [&](const Candidate<T>& x) {
+    if (w.seen_face[std::size_t(x.face)] == epoch) return;
+    w.seen_face[std::size_t(x.face)] = epoch;
+    s.near.push_back(x);
+  };
   for (int i = 0; i < n_points; ++i) {
-    auto& c = w.candidates;
-    c.clear();
-    for (int f = 0; f < m.size(); ++f) c.push_back({detail::squared_distance_to(m, f, points[i], o.nearest), f});
-    counts.distances += m.size();
-    const auto take = [&](const Candidate<T>& x) {
-      if (w.seen_face[x.face] == epoch) return;
-      w.seen_face[x.face] = epoch;
-      s.near.push_back(x);
-    };
+    detail::all_distances(m, points[i], o.nearest, w, counts);
     if (o.adaptive_k)
-      for (const auto& x : c)
+      for (const auto& x : w.candidates)
         if (!detail::out_of_reach(m, x, reach, o.nearest)) take(x);
-    detail::k_nearest(c, o.k);
-    for (const auto& x : c) take(x);
+    detail::k_nearest(w.candidates, o.k);
+    for (const auto& x : w.candidates) take(x);
   }
   if (n_points > 1 || o.adaptive_k) std::sort(s.near.begin(), s.near.end());
-  Vec3<T> sum;
-  for (const auto& x : s.near) sum = sum + m.centres[x.face];
-  s.centre = sum * (T(1) / T(s.size()));
-  s.radius = 0;
-  for (const auto& x : s.near) {
-    const Triangle<T> t = m.triangle(x.face);
-    s.radius = std::fmax(s.radius, std::fmax(length(t.a - s.centre), std::fmax(length(t.b - s.centre), length(t.c - s.centre))));
-  }
-  s.radius += rounding<T> * m.extent;
+  detail::bound(m, s);
 }
 
-// The selected faces in B's frame.
+// The corners of the selected faces, as copy number `copy` (0, or 1 for the end of a sweep), in the frame of the mesh.
 template <class T>
-void place(const Mesh<T>& m, const Transform<T>& to_b, Selection<T>& s) {
-  s.triangle.clear();
-  for (const auto& x : s.near) {
-    const Triangle<T> t = m.triangle(x.face);
-    s.triangle.push_back({to_b(t.a), to_b(t.b), to_b(t.c)});
+void gather(const Mesh<T>& m, Selection<T>& s, int copy = 0) {
+  const std::size_t n = std::size_t(s.padded()), first = std::size_t(copy) * 3 * n;
+  T *x = s.x.data() + first, *y = s.y.data() + first, *z = s.z.data() + first;
+  for (std::size_t i = 0; i < n; ++i) {
+    const T* c = &m.corners[9 * std::size_t(s.near[i < s.near.size() ? i : 0].face)];
+    x[i] = c[0], y[i] = c[1], z[i] = c[2];
+    x[n + i] = c[3], y[n + i] = c[4], z[n + i] = c[5];
+    x[2 * n + i] = c[6], y[2 * n + i] = c[7], z[2 * n + i] = c[8];
   }
 }
 
+// The same, moved to B's frame.
 template <class T>
-void place(const Mesh<T>& m, Selection<T>& s) {
-  s.triangle.clear();
-  for (const auto& x : s.near) s.triangle.push_back(m.triangle(x.face));
+void gather(const Mesh<T>& m, const Transform<T>& to_b, Selection<T>& s, int copy = 0) {
+  gather(m, s, copy);
+  const T rows[9] = {to_b.r.row[0].x, to_b.r.row[0].y, to_b.r.row[0].z, to_b.r.row[1].x, to_b.r.row[1].y, to_b.r.row[1].z,
+                     to_b.r.row[2].x, to_b.r.row[2].y, to_b.r.row[2].z};
+  const T shift[3] = {to_b.p.x, to_b.p.y, to_b.p.z};
+  const int n = 3 * s.padded();
+  kernels<T>.transform(s.x.data() + copy * n, s.y.data() + copy * n, s.z.data() + copy * n, n, rows, shift);
 }
 
 // The vertices of the selected faces, each once: the starts of the virtual edges.
@@ -162,9 +203,9 @@ void list_vertices(const Mesh<T>& m, Workspace<T>& w, Selection<T>& s) {
   const std::uint32_t epoch = w.next_epoch();
   s.vertices.clear(), s.vertex_face.clear();
   for (const auto& x : s.near)
-    for (int v : m.faces[x.face])
-      if (w.seen_vertex[v] != epoch) {
-        w.seen_vertex[v] = epoch;
+    for (int v : m.faces[std::size_t(x.face)])
+      if (w.seen_vertex[std::size_t(v)] != epoch) {
+        w.seen_vertex[std::size_t(v)] = epoch;
         s.vertices.push_back(v), s.vertex_face.push_back(x.face);
       }
 }
@@ -174,9 +215,9 @@ void list_edges(const Mesh<T>& m, Workspace<T>& w, Selection<T>& s) {
   const std::uint32_t epoch = w.next_epoch();
   s.edges.clear(), s.edge_face.clear();
   for (const auto& x : s.near)
-    for (int e : m.face_edges[x.face])
-      if (w.seen_edge[e] != epoch) {
-        w.seen_edge[e] = epoch;
+    for (int e : m.face_edges[std::size_t(x.face)])
+      if (w.seen_edge[std::size_t(e)] != epoch) {
+        w.seen_edge[std::size_t(e)] = epoch;
         s.edges.push_back(e), s.edge_face.push_back(x.face);
       }
 }

@@ -36,16 +36,20 @@ struct Contact {
 // Virtual edges: the chords of the selected vertices of `m`, from `start` to `end`, against the other's selected faces, all in the
 // frame of the other. Stops at the first hit, or finds the earliest.
 template <class T>
-bool virtual_edges_meet(const Mesh<T>& m, const Selection<T>& s, const Transform<T>& start, const Transform<T>& end,
-                        const Selection<T>& other, T scale, bool swapped, bool earliest, Contact& contact, Counts& counts) {
+bool virtual_edges_meet(const Mesh<T>& m, const Selection<T>& s, const Transform<T>& start, const Transform<T>& end, const Selection<T>& other,
+                        T scale, bool swapped, bool earliest, Workspace<T>& w, Contact& contact, Counts& counts) {
   bool hit = false;
+  const TriangleView<T> faces = other.view();
   for (std::size_t i = 0; i < s.vertices.size(); ++i) {
-    const Vec3<T> v = m.vertices[s.vertices[i]], p = start(v), q = end(v);
+    const Vec3<T> v = m.vertices[std::size_t(s.vertices[i])], p = start(v), q = end(v);
+    const T segment[6] = {p.x, p.y, p.z, q.x, q.y, q.z};
+    kernels<T>.segments_miss(faces, other.padded(), segment, rounding<T> * scale, w.flags.data());
     for (int j = 0; j < other.size(); ++j) {
       ++counts.edge_faces;
-      const T share = segment_meets(p, q, other.triangle[j], scale);
+      if (w.flags[std::size_t(j)]) continue;
+      const T share = segment_meets(p, q, other.triangle(j), scale);
       if (share < 0 || !(share < contact.share)) continue;
-      const int own = s.vertex_face[i], its = other.near[j].face;
+      const int own = s.vertex_face[i], its = other.near[std::size_t(j)].face;
       contact = {swapped ? Found::face_edge : Found::edge_face, double(share), s.vertices[i], its, swapped ? its : own, swapped ? own : its};
       hit = true;
       if (!earliest) return true;
@@ -54,18 +58,39 @@ bool virtual_edges_meet(const Mesh<T>& m, const Selection<T>& s, const Transform
   return hit;
 }
 
+// Boxes of B's selected edges, for the rejection of most pairs of edges.
 template <class T>
-bool moving_edges_meet(const Mesh<T>& a, const Mesh<T>& b, const Workspace<T>& w, const Transform<T>& start, const Transform<T>& end,
-                       bool earliest, Contact& contact, Counts& counts) {
+BoxView<T> edge_boxes(const Mesh<T>& m, const Selection<T>& s, Workspace<T>& w) {
+  const std::size_t n = s.edges.size(), padded = (n + lanes<T> - 1) / lanes<T> * lanes<T>;
+  for (std::size_t i = 0; i < padded; ++i) {
+    const auto& e = m.edges[std::size_t(s.edges[i < n ? i : 0])];
+    const Vec3<T> p = m.vertices[std::size_t(e[0])], q = m.vertices[std::size_t(e[1])];
+    w.box[0][i] = std::fmin(p.x, q.x), w.box[1][i] = std::fmin(p.y, q.y), w.box[2][i] = std::fmin(p.z, q.z);
+    w.box[3][i] = std::fmax(p.x, q.x), w.box[4][i] = std::fmax(p.y, q.y), w.box[5][i] = std::fmax(p.z, q.z);
+  }
+  return {{w.box[0].data(), w.box[1].data(), w.box[2].data()}, {w.box[3].data(), w.box[4].data(), w.box[5].data()}};
+}
+
+template <class T>
+bool moving_edges_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& start, const Transform<T>& end, T scale, bool earliest,
+                       Workspace<T>& w, Contact& contact, Counts& counts) {
   bool hit = false;
+  const BoxView<T> boxes = edge_boxes(b, w.b, w);
+  const int padded = int((w.b.edges.size() + lanes<T> - 1) / lanes<T> * lanes<T>);
+  const T slack = rounding<T> * scale;
   for (std::size_t i = 0; i < w.a.edges.size(); ++i) {
-    const auto& e = a.edges[w.a.edges[i]];
-    const Vec3<T> p = start(a.vertices[e[0]]), q = start(a.vertices[e[1]]);
-    const Vec3<T> dp = end(a.vertices[e[0]]) - p, dq = end(a.vertices[e[1]]) - q;
+    const auto& e = a.edges[std::size_t(w.a.edges[i])];
+    const Vec3<T> p = start(a.vertices[std::size_t(e[0])]), q = start(a.vertices[std::size_t(e[1])]);
+    const Vec3<T> r = end(a.vertices[std::size_t(e[0])]), s = end(a.vertices[std::size_t(e[1])]);
+    const auto low = [](T k, T l, T m, T n) { return std::fmin(std::fmin(k, l), std::fmin(m, n)); };
+    const T box[6] = {low(p.x, q.x, r.x, s.x), low(p.y, q.y, r.y, s.y), low(p.z, q.z, r.z, s.z),
+                      -low(-p.x, -q.x, -r.x, -s.x), -low(-p.y, -q.y, -r.y, -s.y), -low(-p.z, -q.z, -r.z, -s.z)};
+    kernels<T>.boxes_apart(boxes, padded, box, slack, w.flags.data());
     for (std::size_t j = 0; j < w.b.edges.size(); ++j) {
-      const auto& f = b.edges[w.b.edges[j]];
       ++counts.edge_pairs;
-      const T share = edges_cross(p, q, dp, dq, b.vertices[f[0]], b.vertices[f[1]]);
+      if (w.flags[j]) continue;
+      const auto& f = b.edges[std::size_t(w.b.edges[j])];
+      const T share = edges_cross(p, q, r - p, s - q, b.vertices[std::size_t(f[0])], b.vertices[std::size_t(f[1])], scale);
       if (share < 0 || !(share < contact.share)) continue;
       contact = {Found::edge_edge, double(share), w.a.edges[i], w.b.edges[j], w.a.edge_face[i], w.b.edge_face[j]};
       hit = true;
@@ -124,26 +149,36 @@ double velocity_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, con
   return t;
 }
 
-// Steps 4 (and its repairs) over a window, on the selections made.
+// Step 4 (and its repairs) over a window, on the selections made. Leaves B's selection gathered, and A's not.
 template <class T>
 bool features_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& start, const Transform<double>& end, const Options& o,
                    T scale, Workspace<T>& w, Contact& contact, Counts& counts) {
   const Transform<T> s(start), e(end);
-  bool hit = virtual_edges_meet(a, w.a, s, e, w.b, scale, false, o.earliest, contact, counts);
+  bool hit = virtual_edges_meet(a, w.a, s, e, w.b, scale, false, o.earliest, w, contact, counts);
   if (hit && !o.earliest) return true;
   if (o.both_vertices) {
-    for (std::size_t i = 0; i < w.a.near.size(); ++i) w.a.triangle[i] = a.triangle(w.a.near[i].face);
-    hit |= virtual_edges_meet(b, w.b, s.inverse(), e.inverse(), w.a, scale, true, o.earliest, contact, counts);
+    gather(a, w.a);
+    hit |= virtual_edges_meet(b, w.b, s.inverse(), e.inverse(), w.a, scale, true, o.earliest, w, contact, counts);
     if (hit && !o.earliest) return true;
   }
-  if (o.edge_edge) hit |= moving_edges_meet(a, b, w, s, e, o.earliest, contact, counts);
+  if (o.edge_edge) hit |= moving_edges_meet(a, b, s, e, scale, o.earliest, w, contact, counts);
   return hit;
 }
 
 template <class T>
 bool surfaces_meet(const Mesh<T>& a, const Transform<double>& pose, Workspace<T>& w, T scale, Answer& answer) {
-  place(a, Transform<T>(pose), w.a);
-  return faces_meet(w.a, w.b, scale, answer);
+  gather(a, Transform<T>(pose), w.a);
+  return faces_meet(w.a, w.b, scale, w, answer);
+}
+
+// One plane between B's selection and A's at both ends keeps all chords away: none of the tests of the window can hit.
+template <class T>
+bool chords_apart(const Mesh<T>& a, const Window<T>& window, T gap, Workspace<T>& w) {
+  gather(a, Transform<T>(window.start), w.a, 0);
+  gather(a, Transform<T>(window.end), w.a, 1);
+  Vec3<T> axis = w.a.triangle(0).a - w.b.triangle(0).a;
+  const auto least = [&](const Vec3<T>& v) { return w.a.least(v, w.scratch.data(), 0, 2) - w.b.least(-v, w.scratch.data(), 0, 1); };
+  return separated(axis, gap, least);
 }
 
 // Halves the window, testing the first half each time, with all tests of the sweep.
@@ -202,15 +237,26 @@ void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Wi
   select(b, point, n, o, reach_b, w, w.b, counts);
 }
 
-// How many parts the step is cut into: one, or with `arc_tolerance` so many that no vertex strays from its chord by more.
+// How far any vertex of A, seen from B, can stray from its chord over a share h of the step: |x''| h^2 / 8.
 template <class T>
-int parts(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o) {
-  constexpr double most = 65536;  // 100 turns at a tolerance of 1e-4 take 22,000
-  if (!(o.arc_tolerance > 0) || !track.turns()) return 1;
-  const double angle = std::abs(track.a.motion.angle) + std::abs(track.b.motion.angle);
-  const double reach = track.b.turns() ? double(a.extent) + b.extent + length(track.a.p - track.b.p) : double(a.extent);
-  const double n = std::ceil(angle * std::sqrt(reach / (8 * o.arc_tolerance * a.radius)));
-  return int(std::fmax(1.0, std::fmin(n, most)));
+double stray(const Mesh<T>& a, const Track& track, double h) {
+  const double wa = std::abs(track.a.motion.angle), wb = std::abs(track.b.motion.angle);
+  if (wa == 0 && wb == 0) return 0;
+  const double v = length(track.a.motion.displacement - track.b.motion.displacement), apart = length(track.a.p - track.b.p) + v;
+  return (wa * wa * a.extent + 2 * wb * (wa * a.extent + v) + wb * wb * (apart + a.extent)) * h * h / 8;
+}
+
+// One plane between the hulls of the whole meshes, with room for the stray: the bodies are apart throughout the window, on their true
+// paths.
+template <class T>
+bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Window<T>& window, T gap, Vec3<T>& axis, Workspace<T>& w) {
+  const Transform<T> start(window.start), end(window.end);
+  const Mat3<T> back = start.r.transposed(), back_end = end.r.transposed();
+  const auto least = [&](const Vec3<T>& v) {
+    const Vec3<T> p = start(a.cloud.least(back * v, w.scratch.data())), q = end(a.cloud.least(back_end * v, w.scratch.data()));
+    return (dot(v, p) < dot(v, q) ? p : q) - b.cloud.least(-v, w.scratch.data());
+  };
+  return separated(axis, gap, least, 16);
 }
 
 // The virtual edges and the end of one window, on selections of its own; the start too where nothing was tested before it.
@@ -220,10 +266,18 @@ bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const 
   Counts& counts = answer.counts;
   const T scale = std::fmax(scale_of(a, b, Vec3<T>(window.start.p)), scale_of(a, b, Vec3<T>(window.end.p)));
   select_for(a, b, track, window, o, w, counts);
-  place(b, w.b);
+  gather(b, w.b);
   list_vertices(a, w, w.a);
   if (o.both_vertices) list_vertices(b, w, w.b);
   if (o.edge_edge) list_edges(a, w, w.a), list_edges(b, w, w.b);
+  const T room = 4 * rounding<T> * scale + (o.both_vertices ? 2 * T(stray(a, track, window.t1 - window.t0)) : T(0));
+  if (chords_apart(a, window, room, w)) {
+    counts.face_pairs += std::int64_t(1 + first) * w.a.size() * w.b.size();
+    counts.edge_faces += std::int64_t(w.a.vertices.size()) * w.b.size();
+    if (o.both_vertices) counts.edge_faces += std::int64_t(w.b.vertices.size()) * w.a.size();
+    if (o.edge_edge) counts.edge_pairs += std::int64_t(w.a.edges.size() * w.b.edges.size());
+    return false;
+  }
   const auto at_start = [&] {
     if (!first || !surfaces_meet(a, window.start, w, scale, answer)) return false;
     answer.found = Found::start;
@@ -245,6 +299,38 @@ bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const 
   return true;
 }
 
+// What a sweep keeps while it goes through its windows.
+template <class T>
+struct Sweep {
+  const Mesh<T>&a, &b;
+  const Track& track;
+  const Options& o;
+  Workspace<T>& w;
+  Answer& answer;
+  double tolerance;  // length that a chord may stray; infinite where arcs are not cut
+  Vec3<T> axis;
+
+  double slack(const Window<T>& x) const {
+    return rounding<T> * (2 * (double(a.extent) + b.extent) + length(x.start.p) + length(x.end.p));
+  }
+
+  // Windows in the order of time, halved until their chords are true enough, or the bodies surely apart. No deeper than 24: a
+  // hundred turns at a tolerance of 1e-6 need 19.
+  bool meet(const Window<T>& x, bool first, int depth) {
+    ++answer.counts.steps;
+    if (depth > 0) {
+      ++answer.counts.spheres;
+      if (swept_spheres_apart(a, b, track, x.t0, x.t1, slack(x))) return false;
+    }
+    const double away = tolerance < std::numeric_limits<double>::infinity() ? stray(a, track, x.t1 - x.t0) : 0;
+    if (away > 0 && away < a.radius && hulls_apart(a, b, x, T(away + slack(x)), axis, w)) return false;
+    if (!(away > tolerance) || depth == 24) return sweep_window(a, b, track, x, first, o, w, answer);
+    const double middle = (x.t0 + x.t1) / 2;
+    const Transform<double> pose = track.at(middle);
+    return meet({x.t0, middle, x.start, pose}, first, depth + 1) || meet({middle, x.t1, pose, x.end}, false, depth + 1);
+  }
+};
+
 }  // namespace detail
 
 // As `overlap`, over the step t in [0, 1] of `track`.
@@ -263,18 +349,10 @@ Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Optio
     answer.hit = true, answer.time = 0;
     return answer;
   }
-  const int n = detail::parts(a, b, track, o);
-  const Transform<double> last = window.end;
-  for (int i = 0; i < n && !answer.hit; ++i) {
-    window = {double(i) / n, double(i + 1) / n, i ? window.end : window.start, i + 1 < n ? track.at(double(i + 1) / n) : last};
-    if (n > 1) {
-      ++answer.counts.spheres;
-      if (i && detail::swept_spheres_apart(a, b, track, window.t0, window.t1, slack(window.start) + slack(window.end))) continue;
-    }
-    ++answer.counts.steps;
-    answer.hit = detail::sweep_window(a, b, track, window, i == 0, o, w, answer);
-  }
-  if (!answer.hit && detail::holds(a, b, Transform<T>(last), o, answer)) {
+  const double tolerance = o.arc_tolerance > 0 ? o.arc_tolerance * a.radius : std::numeric_limits<double>::infinity();
+  detail::Sweep<T> parts{a, b, track, o, w, answer, tolerance, Vec3<T>(window.start(ca) - cb)};
+  answer.hit = parts.meet(window, true, 0);
+  if (!answer.hit && detail::holds(a, b, Transform<T>(window.end), o, answer)) {
     answer.hit = true;
     if (o.earliest) answer.time = 1;
   }

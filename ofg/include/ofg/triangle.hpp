@@ -137,9 +137,9 @@ inline T squared_distance(const Vec3<T>& p, const Triangle<T>& t) {
 
 // The segment from p to q, whose ends move by dp and dq, against the segment at rest from a to b: the least time in [0, 1] at
 // which they cross, or -1. The four points lie in one plane at the roots of a quadratic. Edges that stay in one plane all the
-// time are left to the tests of vertices against faces, which see the same contact.
+// time, or are parallel to rounding when they meet, are left to the tests of vertices against faces, which see the same contact.
 template <class T>
-inline T edges_cross(const Vec3<T>& p, const Vec3<T>& q, const Vec3<T>& dp, const Vec3<T>& dq, const Vec3<T>& a, const Vec3<T>& b) {
+inline T edges_cross(const Vec3<T>& p, const Vec3<T>& q, const Vec3<T>& dp, const Vec3<T>& dq, const Vec3<T>& a, const Vec3<T>& b, T scale) {
   const Vec3<T> f = b - a, e = q - p, de = dq - dp, w = p - a;
   const T c0 = triple(e, f, w), c1 = triple(de, f, w) + triple(e, f, dp), c2 = triple(de, f, dp);
   T root[2];
@@ -160,10 +160,14 @@ inline T edges_cross(const Vec3<T>& p, const Vec3<T>& q, const Vec3<T>& dp, cons
     if (!(t >= -slack && t <= 1 + slack)) continue;
     t = t < 0 ? T(0) : t > 1 ? T(1) : t;
     const Vec3<T> et = e + de * t, wt = w + dp * t, n = cross(et, f);
-    const T nn = dot(n, n);
-    if (!(nn > 0)) continue;
+    const T nn = dot(n, n), ef = dot(et, et) * dot(f, f);
+    if (!(nn > std::numeric_limits<T>::epsilon() * ef)) continue;
     const T s = dot(cross(f, wt), n), u = dot(cross(et, wt), n);
-    if (s >= -slack * nn && s <= nn * (1 + slack) && u >= -slack * nn && u <= nn * (1 + slack)) return t;
+    if (!(s >= -slack * nn && s <= nn * (1 + slack) && u >= -slack * nn && u <= nn * (1 + slack))) continue;
+    // The root of a polynomial of rounding errors is no contact: the two points must be one, as far as this angle can tell.
+    const Vec3<T> gap = wt + et * (s / nn) - f * (u / nn);
+    const T least = slack * scale;
+    if (dot(gap, gap) * nn <= least * least * ef) return t;
   }
   return -1;
 }

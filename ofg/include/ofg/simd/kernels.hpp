@@ -1,0 +1,149 @@
+// The inner loops, compiled for each instruction set, and the choice between them at run time.
+#pragma once
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "../triangle.hpp"
+
+namespace ofg {
+
+constexpr int block_faces = 16;   // faces in a block: one or two registers of the widest set
+template <class T>
+constexpr int lanes = 64 / int(sizeof(T));  // arrays are padded to a multiple of the widest register
+constexpr int most_ranked = 128;  // candidates up to which counting ranks beats sorting
+
+template <class T>
+struct Candidate {
+  T distance;  // squared
+  int face;
+  bool operator<(const Candidate& c) const { return distance < c.distance || (distance == c.distance && face < c.face); }
+};
+
+// Face centres in blocks of neighbours, each with a bounding box of its centres. Padding lies infinitely far away.
+template <class T>
+struct BlockView {
+  const T *x, *y, *z;
+  const int* face;
+  const T *lo[3], *hi[3];  // of the blocks
+  int faces, blocks;
+};
+
+template <class T>
+struct IntOf;
+template <>
+struct IntOf<double> {
+  using type = long long;
+};
+template <>
+struct IntOf<float> {
+  using type = int;
+};
+
+// Room for `nearest`: as many entries as the mesh has padded faces, and some.
+template <class T>
+struct NearestScratch {
+  T *bound, *distance;
+  int* list;
+  typename IntOf<T>::type* face;
+};
+
+template <class T>
+struct TriangleView {
+  const T* c[9];  // ax, ay, az, bx, ..., cz: an array each
+};
+
+template <class T>
+struct BoxView {
+  const T *lo[3], *hi[3];
+};
+
+template <class T>
+struct Kernels {
+  int (*nearest)(const BlockView<T>&, const T* point, int k, NearestScratch<T>&, Candidate<T>* found, int* evaluated);
+  T (*support)(const T* x, const T* y, const T* z, int n, const T* axis, T* product, int* at);
+  void (*planes_apart)(const TriangleView<T>&, int n, const T* triangle, T slack, unsigned char* apart);
+  void (*segments_miss)(const TriangleView<T>&, int n, const T* segment, T slack, unsigned char* miss);
+  void (*boxes_apart)(const BoxView<T>&, int n, const T* box, T slack, unsigned char* apart);
+  void (*transform)(T* x, T* y, T* z, int n, const T* rows, const T* shift);
+};
+
+}  // namespace ofg
+
+#define OFG_ISA sse2
+#define OFG_BYTES 16
+#include "kernels_body.hpp"
+#undef OFG_ISA
+#undef OFG_BYTES
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define OFG_HAS_X86 1
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#endif
+#define OFG_ISA avx2
+#define OFG_BYTES 32
+#include "kernels_body.hpp"
+#undef OFG_ISA
+#undef OFG_BYTES
+#ifdef __clang__
+#pragma clang attribute pop
+#pragma clang attribute push(__attribute__((target("avx512f,avx512vl,avx512dq,avx512bw"))), apply_to = function)
+#else
+#pragma GCC pop_options
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw")
+#endif
+#define OFG_ISA avx512
+#define OFG_BYTES 64
+#include "kernels_body.hpp"
+#undef OFG_ISA
+#undef OFG_BYTES
+#ifdef __clang__
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+
+namespace ofg {
+
+enum class Isa { sse2, avx2, avx512 };  // "sse2" is plain 16-byte vectors on machines that are not x86
+
+inline Isa widest_isa() {
+#ifdef OFG_HAS_X86
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512bw"))
+    return Isa::avx512;
+  if (__builtin_cpu_supports("avx2")) return Isa::avx2;
+#endif
+  return Isa::sse2;
+}
+
+template <class T>
+Kernels<T> kernels_of(Isa isa) {
+#ifdef OFG_HAS_X86
+  if (isa == Isa::avx512) return avx512::kernels<T>();
+  if (isa == Isa::avx2) return avx2::kernels<T>();
+#endif
+  (void)isa;
+  return sse2::kernels<T>();
+}
+
+// The kernels in use: those of the widest instruction set of the machine, or those that set_isa chose.
+template <class T>
+inline Kernels<T> kernels = kernels_of<T>(widest_isa());
+
+// For tests and measurements; not while another thread asks. False where the machine lacks it.
+inline bool set_isa(Isa isa) {
+  if (int(isa) > int(widest_isa())) return false;
+  kernels<float> = kernels_of<float>(isa);
+  kernels<double> = kernels_of<double>(isa);
+  return true;
+}
+
+}  // namespace ofg
