@@ -31,6 +31,10 @@ def vector(v) -> list:
     return [rational(c) for c in v]
 
 
+def ball(v) -> list:
+    return [arb(c) for c in v]
+
+
 def rotation(w, x, y, z) -> list:
     """Rows of N(q) / |q|^2, in the arithmetic of the arguments."""
     s = w * w + x * x + y * y + z * z

@@ -12,7 +12,7 @@ import numpy as np
 from flint import arb
 
 from . import filter
-from .balls import BITS, add, cross, dot, greatest, least, mul, norm, number, rational, transposed, vector
+from .balls import BITS, add, ball, cross, dot, greatest, least, mul, norm, number, rational, transposed, vector
 from .geometry import Pair, elements, parts, points
 
 
@@ -162,30 +162,25 @@ def common(pair, cert, t):
 
 
 def apart(o, vertices=None, near=None):
-    """f(t): how far n keeps a vertex from the other side's support. |f''| <= M, so f >= chord - (M h^2 / 2) x (1 - x), which is
-    positive if f(s), f(e) > 0 and max + 3 min > M h^2 / 2. vertices, near: those that doubles could not settle; all if None."""
+    """f(t), the plane's distance from a vertex of the side that moves past it (Q), must stay above gap |n|. The side at rest with
+    the plane (P) gives its support. |f''| <= M, so f >= chord - (M h^2 / 2) x (1 - x): positive if f(s), f(e) > 0 and
+    max + 3 min > M h^2 / 2. vertices of Q and candidates `near` in P: those that doubles could not settle; all if None."""
     RA, RB, dp, d, k, theta = o.pair.exact
-    n, s, e = [arb(number(c)) for c in o.n], rational(o.s), rational(o.e)
-    P, Q = (o.A, o.B) if o.turning else (o.B, o.A)
-    P, Q = P if near is None else P[near], Q if vertices is None else Q[vertices]
-    half = theta**2 * norm(cross(n, k)) * (arb(e) - arb(s)) ** 2 / 2 if theta else arb(0)
-    if o.turning:
-        c = greatest([dot(n, mul(RA, vector(p))) for p in P])
-        slide = 2 * norm(cross(k, d)) / abs(theta) if theta else arb(0)
-    else:
-        c = least([dot(n, add(mul(RB, vector(p)), dp)) for p in P])
-        ns = [o.pair.turn(-t, n) for t in (s, e)]
-    for v in Q:
-        if o.turning:  # n.Rot(-theta t)(b - t d) - c
-            ws = [add(add(mul(RB, vector(v)), dp), d, -t) for t in (s, e)]
-            f = [dot(n, o.pair.turn(-t, w)) - c for t, w in zip((s, e), ws)]
-            arm = greatest([norm(cross(k, w)) for w in ws]) + slide
-        else:  # c - n.x(t)
-            r = mul(RA, vector(v))
-            f = [c - t * dot(n, d) - dot(w, r) for t, w in zip((s, e), ns)]
-            arm = norm(cross(k, r))
-        f = [x - rational(o.gap) * norm(n) for x in f]
-        if not (f[0] > 0 and f[1] > 0 and 3 * least(f) + greatest(f) > half * arm):
+    n, s, e = [number(c) for c in o.n], rational(o.s), rational(o.e)
+    sign, P, RP, Q, RQ = (1, o.A, RA, o.B, RB) if o.turning else (-1, o.B, RB, o.A, RA)
+    m = ball(transposed(RP, n))
+    support = greatest([sign * dot(m, ball(p)) for p in (P if near is None else P[near]).tolist()]) + rational(o.gap) * norm(n)
+    lines, offsets = [], []
+    for t in (s, e):
+        w, shift = o.pair.turn(sign * t, n), add(dp, d, -t)  # A's plane turns with A; a plane at rest turns back in A's frame
+        lines.append((ball(transposed(RQ, w)), dot(shift, w if o.turning else n) - support))
+        offsets.append(ball(transposed(RQ, shift)) if o.turning else ball((0, 0, 0)))
+    kQ, slide = ball(transposed(RQ, k)), 2 * abs(theta) * norm(cross(k, d)) if o.turning else 0
+    bend = norm(cross(n, k)) * (arb(e) - arb(s)) ** 2 / 2
+    for v in map(ball, (Q if vertices is None else Q[vertices]).tolist()):
+        f = [sign * dot(line, v) + c for line, c in lines]
+        M = theta**2 * greatest([norm(cross(kQ, add(v, offset))) for offset in offsets]) + slide if theta and e > s else 0
+        if not (f[0] > 0 and f[1] > 0 and 3 * least(f) + greatest(f) > M * bend):
             return f"plane {o.n} does not keep A and B apart by {o.gap} over [{o.s}, {o.e}]"
     return ""
 

@@ -56,7 +56,10 @@ class Prover {
             if (!settle(quick(0, 0), t, out)) { Exact e(*this, 0, 0); settle(e.placed, t, out); }
             return out;
         }
-        double apart = distance(t);
+        double apart = 1e300;
+        bool found = false;
+        nearest(0, 0, t, apart, &out.common, &found);
+        if (found) { out.label = "hit"; return out; }
         if (apart > 1e3 * blur_)
             for (double share : {0.99, 0.5}) {
                 Cover c = cover(t, t, share * apart, nullptr);
@@ -187,18 +190,25 @@ class Prover {
         nearest(0, 0, t, best);
         return best;
     }
-    void nearest(int na, int nb, double t, double& best) {
+    void nearest(int na, int nb, double t, double& best, Common* common = nullptr, bool* found = nullptr) {
         if (best <= 0 || effort_.spent() || sphere_gap(na, nb, t) >= best) return;
-        auto P = quick(na, nb);
-        effort_.done += double(P.r.size() + P.b.size());
-        const auto& x = P.at(t);
-        auto g = gjk<double>(x, P.b, P.b[0] - x[0], P.reach, 1e-6);
-        double d = g.status == Status::Apart ? norm(g.v) : 0;
-        if (d >= best) return;
-        if (leaf_pair(na, nb)) { best = d; return; }
+        double least = std::min(A_.nodes[na].radius, B_.nodes[nb].radius);
+        if (leaf_pair(na, nb) || sphere_gap(na, nb, t) > -0.7 * least) {
+            auto P = quick(na, nb);
+            effort_.done += double(P.r.size() + P.b.size());
+            const auto& x = P.at(t);
+            auto g = gjk<double>(x, P.b, P.b[0] - x[0], P.reach, 1e-6);
+            double d = g.status == Status::Apart ? norm(g.v) : 0;
+            if (d >= best) return;
+            if (leaf_pair(na, nb)) {
+                best = d;
+                if (d <= 0 && common) *found = crossing(na, nb, t, *common);
+                return;
+            }
+        }
         auto [c1, c2] = children(na, nb, t);
-        nearest(c1.first, c1.second, t, best);
-        nearest(c2.first, c2.second, t, best);
+        nearest(c1.first, c1.second, t, best, common, found);
+        nearest(c2.first, c2.second, t, best, common, found);
     }
     std::pair<std::pair<int, int>, std::pair<int, int>> children(int na, int nb, double t) {  // nearer first
         std::pair<int, int> c1{na, nb}, c2{na, nb};
