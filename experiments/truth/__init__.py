@@ -9,8 +9,9 @@ from ofg import Query
 from .checker import Check, check, check_many
 from .label import Truth
 from .prover import prove, uncertain
+from .verify import Verification, verify
 
-__all__ = ["Check", "Truth", "check", "check_many", "label", "label_many", "prove"]
+__all__ = ["Check", "Truth", "Verification", "check", "check_many", "label", "label_many", "prove", "verify"]
 
 
 def label(query: Query) -> Truth:
