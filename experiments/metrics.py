@@ -22,8 +22,12 @@ def outcomes(store: Store) -> pd.DataFrame:
     is not ok. tunnelled: a miss of a sweep whose start and end are certified clear. error: signed time of impact error, as a share
     of the step: beyond the certified bracket, positive late, negative early, 0 inside; NaN where there is none.
     """
-    cases = store.read("cases.parquet").drop(columns=["certificate"])
-    table = store.read("observations.parquet").merge(cases, on="case", how="left", validate="many_to_one")
+    return judge(store.read("observations.parquet"), store.read("cases.parquet"))
+
+
+def judge(observations: pd.DataFrame, cases: pd.DataFrame) -> pd.DataFrame:
+    """`outcomes` for rows of observations.parquet and of cases.parquet."""
+    table = observations.merge(cases.drop(columns=["certificate"]), on="case", how="left", validate="many_to_one")
     answered, hit = table.status == "ok", table.hit.fillna(False).astype(bool)
     margin = table.method.map(margins(table.method.unique()))
     clear, meets = table.label == "clear", table.label == "hit"
@@ -111,7 +115,7 @@ def paired_ratios(store: Store, reference: str) -> pd.DataFrame:
     """
     bins = ["question", "faces", "situation"]
     times = _timed(store)
-    floors = times[times.case == FLOOR].set_index([*bins, "method"]).ns.rename("floor")
+    floors = times[times.case == FLOOR].groupby([*bins, "method"]).ns.median().rename("floor")
     times = times[times.case != FLOOR].join(floors, on=[*bins, "method"]).assign(net=lambda t: (t.ns - t.floor).clip(lower=0))
     base = times[(times.method == reference) & (times.net > 0)][[*bins, "case", "net"]]
     rows = []

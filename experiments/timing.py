@@ -4,7 +4,7 @@ Protocol. Cases are put into bins by question, size and situation (how far apart
 itself, so that poses change from call to call (a repeated pose flatters by up to 3x). Methods take turns bin by bin within
 a round, in an order that rotates from round to round, so that a slow minute of the machine falls on all of them; taking turns
 call by call was left out because each call would then find the instruction cache full of another engine. The floor of a
-method is its own cheapest call (of n substeps: one) on two tetrahedra far apart, timed in the same rounds: what the binding and
+method is its own cheapest call (of n substeps: one) on two tetrahedra far apart, timed between its cases: what the binding and
 an early way out cost. A net time of n substeps therefore still holds the binding's cost of n - 1 calls.
 Only cases that a method answered (status ok) are timed; building (`prepare`) is timed once per case.
 """
@@ -16,12 +16,12 @@ import os
 from dataclasses import dataclass
 from functools import partial
 from time import perf_counter_ns
+from typing import Callable
 
 import numpy as np
 import pandas as pd
 
 from baselines import registry
-from baselines.contract import Unsupported
 from ofg import Body, Motion, Pose, Query
 
 from .case import Case
@@ -109,39 +109,46 @@ def _open(timing: TimingChoice):
 
 def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
     """Rows of COLUMNS for one bin."""
-    entries = []  # (method label, case id, build ns, callable)
-    for label, answered in bin_.methods.items():
-        entries.append(_prepare(label, bin_, answered))
-    entries.append([(PROBE, "", 0, _noise_probe())])
-    times = {(label, case): [] for group in entries for label, case, _, _ in group}
+    groups = [_prepare(label, bin_, answered) for label, answered in bin_.methods.items()]
+    groups.append([Call(PROBE, "", 0, _noise_probe())])
+    times = {call: [] for group in groups for call in group}
     gc.collect()
     gc.disable()
     for r in range(timing.warmup + timing.rounds):
-        for group in entries[r % len(entries):] + entries[:r % len(entries)]:
-            for label, case, _, call in group:
+        for group in groups[r % len(groups):] + groups[:r % len(groups)]:
+            group[-1].ask()  # not timed: it meets caches full of another engine
+            for call in group:
                 start = perf_counter_ns()
-                call()
+                call.ask()
                 elapsed = perf_counter_ns() - start
                 if r >= timing.warmup:
-                    times[label, case].append(elapsed)
+                    times[call].append(elapsed)
     gc.enable()
-    return [(bin_.question, bin_.faces, bin_.situation, label, case, build, times[label, case]) for group in entries for label, case, build, _ in group]
+    return [(bin_.question, bin_.faces, bin_.situation, c.method, c.case, c.build_ns, rounds) for c, rounds in times.items()]
 
 
-def _prepare(label: str, bin_: Bin, answered: set[str]) -> list[tuple]:
+@dataclass(frozen=True, eq=False)
+class Call:
+    """One timed call of a method: of a case, or of its floor."""
+
+    method: str
+    case: str
+    build_ns: int
+    ask: Callable[[], object]
+
+
+def _prepare(label: str, bin_: Bin, answered: set[str]) -> list[Call]:
+    """The calls of one method, with its floor before every fourth case, so that both are timed in the same state of the caches."""
     (method,) = registry.make(label)
-    group = []
-    try:
-        cheapest = type(method)(**{**method.parameters, **method.cheapest})
-        group.append((label, FLOOR, 0, cheapest.prepare(floor_query(bin_.question))))
-    except Unsupported:
-        pass
-    for case in bin_.cases:
-        if case.id in answered:
-            start = perf_counter_ns()
-            call = method.prepare(case.query)
-            group.append((label, case.id, perf_counter_ns() - start, call))
-    return group
+    cheapest = type(method)(**{**method.parameters, **method.cheapest})
+    calls = []
+    for case in (c for c in bin_.cases if c.id in answered):
+        if len(calls) % 5 == 0:
+            calls.append(Call(label, FLOOR, 0, cheapest.prepare(floor_query(bin_.question))))
+        start = perf_counter_ns()
+        ask = method.prepare(case.query)
+        calls.append(Call(label, case.id, perf_counter_ns() - start, ask))
+    return calls
 
 
 def floor_query(question: str) -> Query:
