@@ -118,6 +118,23 @@ def figures(run_: Run) -> None:
 
 
 @app.command()
+def verify(run_: Run) -> None:
+    """Check every label of a run again, from its stored certificates, with the checker alone."""
+    from .progress import stage
+    from .rows import cases_of
+    from .truth import verify as check_labels
+
+    store = _open(run_)
+    cases = store.read("cases.parquet")
+    with stage("check labels", len(cases)) as advance:
+        result = check_labels(((case.query, truth) for case, truth in cases_of(cases, store.read("bodies.parquet"))), advance)
+    console.print(str(result), highlight=False, markup=False)
+    for position, *_ in result.refused[:20]:
+        console.print(f"label {position} is case {cases.case[position]}", highlight=False)
+    raise typer.Exit(0 if result.ok else 1)
+
+
+@app.command()
 def check(name: Annotated[str, typer.Argument(metavar="METHOD", help='a method, with parameters if any: "ofg k=16"')], methods: Methods = None) -> None:
     """Put a method through the conformance suite that every method here must pass."""
     from baselines import conformance
