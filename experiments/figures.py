@@ -77,7 +77,7 @@ def draw(part: pd.DataFrame, question: str) -> plt.Figure:
 def _panel(axis, part: pd.DataFrame, styles) -> None:
     front = part[part.front].sort_values("us")
     axis.plot(front.us, 100 * front.rate, color="0.4", lw=4, alpha=0.35, drawstyle="steps-post", zorder=1)
-    for name, group in part.groupby(part.method.str.split().str[0], sort=False):
+    for name, group in part.groupby(part.method.map(curve), sort=False):
         colour, marker = styles[name]
         axis.plot(group.us, 100 * group.rate, color=colour, lw=1, zorder=2)
         axis.errorbar(group.us, 100 * group.rate, yerr=100 * np.abs([group.rate - group.low, group.high - group.rate]), fmt="none", ecolor=colour, elinewidth=0.5, alpha=0.6, zorder=2)
@@ -85,7 +85,7 @@ def _panel(axis, part: pd.DataFrame, styles) -> None:
         axis.plot(group.us[whole], 100 * group.rate[whole], color=colour, marker=marker, ms=5, ls="", zorder=3)
         axis.plot(group.us[~whole], 100 * group.rate[~whole], color=colour, marker=marker, ms=5, ls="", mfc="white", zorder=3)
         for row in group.itertuples():
-            if len(group) > 1:
+            if len(group) > 1 and row.Index in (group.index[0], group.index[-1]):
                 axis.annotate(row.method.split()[1], (row.us, 100 * row.rate), textcoords="offset points", xytext=(3, 3), fontsize=5, color=colour)
     axis.set_xscale("log")
     axis.set_yscale("symlog", linthresh=1, linscale=0.6)
@@ -95,12 +95,18 @@ def _panel(axis, part: pd.DataFrame, styles) -> None:
     axis.grid(alpha=0.25, lw=0.5)
 
 
+def curve(label: str) -> str:
+    """What the points of one curve have in common: the label without the parameter that the curve runs over."""
+    name, *words = label.split()
+    return " ".join([name, *words[1:]])
+
+
 def _styles(methods) -> dict[str, tuple[str, str]]:
-    """A colour per engine, a marker per method of that engine."""
+    """A colour per engine, a marker per curve of that engine."""
     known = registry.methods()
     styles, seen = {}, {}
-    for name in dict.fromkeys(label.split()[0] for label in methods):
-        engine = known[name].engine if name in known else name
+    for name in dict.fromkeys(map(curve, methods)):
+        engine = known[name.split()[0]].engine if name.split()[0] in known else name
         colour, count = seen.get(engine, (COLOURS[len(seen) % len(COLOURS)], 0))
         styles[name] = (colour, MARKERS[count % len(MARKERS)])
         seen[engine] = (colour, count + 1)
