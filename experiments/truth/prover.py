@@ -33,7 +33,7 @@ def uncertain(reason: str) -> Truth:
 def _overlap(query, found) -> Truth:
     label = found["label"]
     if label == "clear":
-        return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate={"clear": _apart(query, found["tree"])})
+        return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate={"clear": _apart(query, found["tree"], 0.0)})
     if label == "hit":
         return Truth("hit", start="hit", end="hit", gap=-found["depth"], certificate={"hit": _inside(query, found["common"])})
     if found["spent"]:
@@ -45,7 +45,8 @@ def _sweep(query, found) -> Truth:
     label, start = found["label"], found["start"]
     if label == "uncertain":
         return uncertain(found["reason"])
-    certificate = {"clear": _apart(query, found["tree"])} if start == "clear" else {}
+    until = 1.0 if label == "clear" else found["t_lo"]
+    certificate = {"clear": _apart(query, found["tree"], until)} if start == "clear" else {}
     if label == "clear":
         return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate=certificate)
     certificate["hit"] = _inside(query, found["common"])
@@ -54,14 +55,14 @@ def _sweep(query, found) -> Truth:
         if exact := exact_time(query, 0, 0, found["tree"][0][-1][2][:3]):
             certificate["exact"] = exact
     if end["label"] == "clear":
-        certificate["end_clear"] = _apart(query, end["tree"])
+        certificate["end_clear"] = _apart(query, end["tree"], 1.0)
     if end["label"] == "hit":
         certificate["end_hit"] = _inside(query, end["common"])
     return Truth("hit", t_lo, t_hi, start, end["label"], -found["depth"], certificate=certificate)
 
 
-def _apart(query, tree) -> dict:
-    apart = {"tree": _tree(tree)}
+def _apart(query, tree, end) -> dict:
+    apart = {"tree": _tree(tree, -1.0, end)}
     for key, body in (("order_a", query.a), ("order_b", query.b)):
         order = _solid(body).order
         if len(order) > 1:
@@ -69,13 +70,19 @@ def _apart(query, tree) -> dict:
     return apart
 
 
-def _tree(node) -> list:
+def _tree(node, start, end) -> list:
+    """The native tree, without what lies past the interval's end: it was proved before an earlier impact was found."""
     segments, split = node
-    segments = [[end, frame, *_wide(n)] for end, frame, n in segments]
-    if split is None:
-        return [segments, None]
+    kept = []
+    for to, frame, n in segments:
+        if kept and start >= end:
+            break
+        kept.append([to, frame, *_wide(n)])
+        start = to
+    if split is None or (kept and start >= end):
+        return [kept, None]
     side, cut, left, right = split
-    return [segments, [side, [cut], [_tree(left), _tree(right)]]]
+    return [kept, [side, [cut], [_tree(left, start, end), _tree(right, start, end)]]]
 
 
 def _wide(n) -> list:
