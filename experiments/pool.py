@@ -17,6 +17,8 @@ from multiprocessing.connection import wait
 from pathlib import Path
 from typing import Any, Callable, Sequence
 
+# Imported once in the process that all workers are forked from; without it each worker takes a second to start. No engine is among them.
+PRELOAD = ["experiments.cli", "experiments.labelling", "experiments.answering", "experiments.timing", "experiments.truth"]
 # A process that the watchdog of `limit` ends leaves with this code (faulthandler calls _exit(1)).
 WATCHDOG_EXIT = 1
 
@@ -61,7 +63,7 @@ def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance:
     engine's destructors, as some do.
     """
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["numpy", "ofg", "experiments.pool"])
+    context.set_forkserver_preload(PRELOAD)
     queue, running = deque((task, []) for task in tasks), {}
     with tempfile.TemporaryDirectory() as folder:
         try:

@@ -2,9 +2,8 @@
 
 Protocol. Cases are put into bins by question, size and situation (how far apart or how deep; hit or clear). In a round, every method answers every case of a bin once, each call timed by
 itself, so that poses change from call to call (a repeated pose flatters by up to 3x). Methods take turns bin by bin within
-a round, in an order that rotates from round to round, so that a slow minute of the machine falls on all of them; taking turns
-call by call was left out because each call would then find the instruction cache full of another engine. The floor of a
-method is its own cheapest call (of n substeps: one) on two tetrahedra far apart, timed between its cases: what the binding and
+a round, in an order drawn anew for each round, so that a slow minute of the machine falls on all of them and none always finds
+the bodies in the cache that XX its own cheapest call (of n substeps: one) on two tetrahedra far apart, timed between its cases: what the binding and
 an early way out cost. A net time of n substeps therefore still holds the binding's cost of n - 1 calls.
 Only cases that a method answered (status ok) are timed; building (`prepare`) is timed once per case.
 """
@@ -112,10 +111,11 @@ def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
     groups = [_prepare(label, bin_, answered) for label, answered in bin_.methods.items()]
     groups.append([Call(PROBE, "", 0, _noise_probe())])
     times = {call: [] for group in groups for call in group}
+    order = np.random.default_rng(0)
     gc.collect()
     gc.disable()
     for r in range(timing.warmup + timing.rounds):
-        for group in groups[r % len(groups):] + groups[:r % len(groups)]:
+        for group in (groups[i] for i in order.permutation(len(groups))):
             group[-1].ask()  # not timed: it meets caches full of another engine
             for call in group:
                 start = perf_counter_ns()
