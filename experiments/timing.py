@@ -1,10 +1,13 @@
 """How long methods take: interleaved rounds on one pinned core, each method's floor, the same cases for all.
 
-Protocol. Cases are put into bins by question, size and situation (how far apart or how deep; hit or clear). In a round, every method answers every case of a bin once, each call timed by
-itself, so that poses change from call to call (a repeated pose flatters by up to 3x). Methods take turns bin by bin within
-a round, in an order drawn anew for each round, so that a slow minute of the machine falls on all of them and none always finds
-the bodies in the cache that XX its own cheapest call (of n substeps: one) on two tetrahedra far apart, timed between its cases: what the binding and
-an early way out cost. A net time of n substeps therefore still holds the binding's cost of n - 1 calls.
+Protocol. Cases are put into bins by question, size and situation (how far apart or how deep; hit or clear). In a round, every
+method answers every case of a bin once, each call timed by itself, so that poses change from call to call (a repeated
+pose flatters by up to 3x). Methods take turns within a round, in an order drawn anew for each round, so that a slow minute of the
+machine falls on all of them and none always finds the bodies in the cache that another left there (in a fixed order k = 4 came
+out slower than k = 8 behind it). Taking turns call by call was left out, because each call would then find the instruction cache
+full of another engine. The floor of a method is its own cheapest call (of n substeps: one) on two tetrahedra far apart, timed
+between its cases: what the binding and an early way out cost. A net time of n substeps therefore still holds the binding's
+cost of n - 1 calls.
 Only cases that a method answered (status ok) are timed; building (`prepare`) is timed once per case.
 """
 
