@@ -118,6 +118,35 @@ def figures(run_: Run) -> None:
 
 
 @app.command()
+def report(run_: Run) -> None:
+    """Write report.html of a finished run anew: one file with everything, for any browser."""
+    from .report import report as written
+
+    written(_open(run_))
+    console.print(f"The report is {run_ / 'report.html'}.")
+
+
+@app.command()
+def explain(
+    name: Annotated[Optional[str], typer.Argument(metavar="CASE", help="a case of the run, as in its tables and its report, like thin_wall/100/0007")] = None,
+    run_: Annotated[Optional[Path], typer.Option("--run", help="folder of the run that has the case")] = None,
+    file: Annotated[Optional[Path], typer.Option(help="a case in a file of its own, instead of a run")] = None,
+    out: Annotated[Optional[Path], typer.Option(help="the page [default: CASE.html, with - for /]")] = None,
+    save: Annotated[Optional[Path], typer.Option(help="also write the case into this file, for --file")] = None,
+    ask: Annotated[bool, typer.Option("--ask", help="ask the methods anew, each in a process of its own")] = False,
+    method: Annotated[Optional[list[str]], typer.Option("--method", help="which to ask with --ask; may be repeated [default: those of the run or file]")] = None,
+    methods: Methods = None,
+) -> None:
+    """Show one case: a page with its bodies in 3D and its certificate, and a table of what every method said."""
+    from .report import explain as explained
+
+    if (run_ is None) == (file is None) or (run_ is not None and name is None):
+        raise configuration.ConfigError("Name a case and its run (ofg-bench explain thin_wall/100/0007 --run results/runs/quick), or a file (ofg-bench explain --file case.json).")
+    _extend(methods, None)
+    explained.command(name, run_, file, out, save, ask or bool(method), method or (), tuple(map(str, methods or ())), _print_grid, console.print)
+
+
+@app.command()
 def verify(run_: Run) -> None:
     """Check every label of a run again, from its stored certificates, with the checker alone."""
     from .progress import stage

@@ -11,6 +11,7 @@ from baselines import registry
 
 from . import answering, figures, labelling, manifest, tables, timing
 from .config import ConfigError, RunConfig, load_files
+from .report import report as html_report
 from .store import Store
 
 
@@ -37,11 +38,12 @@ def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missin
 
 
 def report(store: Store) -> list[tables.Table]:
-    """Write tables/ and figures/ from the rows of the run."""
+    """Write tables/, figures/ and report.html from the rows of the run."""
     made = list(tables.build(store))
     tables.save(store, made)
     if store.has("timings.parquet"):
         figures.accuracy_speed(store)
+    html_report(store)
     return made
 
 

@@ -1,0 +1,193 @@
+"""One case as a page of its own, from a run or from a file.
+
+The file (JSON): {"case": the row of cases.parquet, "bodies": its two rows of bodies.parquet (one where both are equal), "observations": rows
+of observations.parquet, may be missing}. A file written by hand needs of "case": question, body_a, body_b, and what is not at rest of quaternion_a,
+position_a, quaternion_b, position_b, displacement, axis, angle; of a body: body (any name), kind, vertices, faces (flat lists; a convex body needs no
+faces; a union piece_vertices and piece_faces). Where it has no label the case is certified anew.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import tempfile
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from baselines import registry
+from ofg import Body, Motion, Pose, Query
+
+from .. import answering, metrics, pool
+from ..answering import COLUMNS
+from ..case import Case
+from ..config import ConfigError, RunConfig, closest, load, load_files
+from ..rows import body_of, body_row, case_row, cases_of
+from ..store import Store, StoreError
+from ..truth.label import Truth
+
+
+@dataclass(frozen=True)
+class Explained:
+    """A case, its truth, its row, and what methods said about it (rows of observations.parquet)."""
+
+    case: Case
+    truth: Truth
+    row: dict
+    said: pd.DataFrame
+
+
+def from_run(store: Store, name: str) -> Explained:
+    """StoreError with the nearest names where the run has no such case."""
+    rows = store.read("cases.parquet")
+    row = rows[rows.case == name]
+    if row.empty:
+        raise StoreError(f"The run {store.folder} has no case '{name}'{closest(name, rows.case)}. A case is named scenario/level/index, as in the gallery of its "
+                         "report.html and in cases.parquet.")
+    bodies = store.read("bodies.parquet")
+    ((case, truth),) = cases_of(row, bodies[bodies.body.isin([row.body_a.iloc[0], row.body_b.iloc[0]])])
+    said = store.read("observations.parquet").query("case == @name").reset_index(drop=True)
+    return Explained(case, truth, row.iloc[0].to_dict(), said)
+
+
+def from_file(path: Path) -> Explained:
+    """ConfigError where the file cannot be read, naming the field."""
+    if not path.is_file():
+        raise ConfigError(f"The case file {path} does not exist. Write one from a run with: ofg-bench explain CASE --run RUN --save {path}")
+    try:
+        content = json.loads(path.read_text())
+        made = {b["body"]: _body(b) for b in content["bodies"]}
+        row = content["case"]
+        query = Query(row["question"], made[row["body_a"]], made[row["body_b"]], _pose(row, "a"), _pose(row, "b"),
+                      Motion(row.get("displacement", [0, 0, 0]), row.get("axis", [0, 0, 1]), row.get("angle", 0.0)))
+        case = Case(row.get("case", path.stem), row.get("scenario", path.stem), float(row.get("level", 0)), int(row.get("index", 0)), query, _tags(row))
+        truth = _truth(row) if "label" in row else _certify(query)
+        said = pd.DataFrame(content.get("observations", []), columns=COLUMNS)
+    except json.JSONDecodeError as error:
+        raise ConfigError(f"The case file {path} is not valid JSON: {error}.") from error
+    except KeyError as error:
+        raise ConfigError(f"The case file {path} lacks the field {error}. It needs \"case\" and \"bodies\": see the head of experiments/report/explain.py, or write one "
+                          "from a run with: ofg-bench explain CASE --run RUN --save case.json") from error
+    except (TypeError, AttributeError, IndexError) as error:
+        raise ConfigError(f"The case file {path} has a field of the wrong form ({error}). Compare it with one written by: ofg-bench explain CASE --run RUN --save case.json") from error
+    return Explained(case, truth, case_row(case, truth, 0), _typed(said))
+
+
+def save(explained: Explained, path: Path) -> None:
+    """The file that `from_file` reads."""
+    q = explained.case.query
+    bodies = {row["body"]: row for row in (body_row(q.a), body_row(q.b))}
+    said = [{k: None if v is pd.NA or v != v else v for k, v in row.items()} for row in explained.said[COLUMNS].astype(object).to_dict("records")]
+    content = {"case": _listed(explained.row), "bodies": list(bodies.values()), "observations": said}
+    path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n")
+
+
+def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
+    """What the methods of the configuration say now, each asked in a process of its own; their earlier answers are replaced."""
+    load_files(config)
+    rows: list[dict] = []
+    tasks = []
+    for method in (m for spec in config.methods for m in registry.make(spec)):
+        def lost(case, status, detail, label=method.label):
+            return answering._row(case, label, status, detail=detail)
+        tasks.append(pool.Task(answering._open, (method.label, config), [explained.case], rows.extend, lost))
+    pool.run(tasks, 2, config.build_seconds + config.query_seconds, log, prepare=partial(load_files, config))
+    order = {task.argument[0]: i for i, task in enumerate(tasks)}
+    fresh = pd.DataFrame(sorted(rows, key=lambda r: order[r["method"]]), columns=COLUMNS)
+    kept = explained.said[~explained.said.method.isin(fresh.method)]
+    return Explained(explained.case, explained.truth, explained.row, _typed(pd.concat([fresh, kept], ignore_index=True) if len(kept) else fresh))
+
+
+def command(name, run_, file, out, save_to, anew, methods, method_files, print_grid, say) -> None:
+    """What `ofg-bench explain` does; its options are those of the command line."""
+    from .. import manifest
+
+    if run_ is not None:
+        store = Store(run_)
+        config = store.config
+        load_files(config)
+        found, versions, known = from_run(store, name), json.loads(store.path("manifest.json").read_text())["versions"], config.methods
+    else:
+        found, versions = from_file(file), {}
+        known = tuple(found.said.method)
+        config = RunConfig(seed=0, methods=known or ("ofg",), scenarios=[{"name": found.case.scenario, "cases": 1}])
+    config = config.model_copy(update={"methods": tuple(methods) or known or load("quick").methods, "method_files": config.method_files + method_files})
+    if anew or not len(found.said):
+        with tempfile.TemporaryDirectory() as folder:
+            found = ask(found, config, Path(folder, "workers.log"))
+    page_path = out or Path(f"{found.case.id.replace('/', '-')}.html")
+    page_path.parent.mkdir(parents=True, exist_ok=True)
+    page_path.write_text(page(found, versions or manifest.versions(config)))
+    t = found.truth
+    sweep = found.case.query.question != "overlap"
+    bracket = f", time of impact in [{t.t_lo!r}, {t.t_hi!r}]" if sweep and t.label == "hit" else ""
+    columns = ("method", "verdict", *(("time", "error") if sweep else ()), "detail")
+    rows = [(r.method, r.outcome, *((_digits(r.time), _digits(r.error)) if sweep else ()), r.detail or "") for r in verdicts(found).itertuples()]
+    print_grid(f"{found.case.id}: certified {t.label}{bracket}, gap {t.gap:.3g}{'. ' + t.reason if t.reason else ''}", columns, rows,
+               "Error: of the time of impact beyond its certified bracket, as a share of the step; positive is late." if sweep else "")
+    if save_to:
+        save(found, save_to)
+        say(f"The case is in {save_to}; show it anywhere with: ofg-bench explain --file {save_to}")
+    say(f"The page is {page_path}.")
+
+
+def _digits(value: float) -> str:
+    return "-" if value != value else f"{value:.9g}"
+
+
+def page(explained: Explained, versions: dict) -> str:
+    """The text of the case's page."""
+    from . import page as pages
+    from . import payload
+
+    made = payload.of_case(explained.case, explained.truth, explained.row, explained.said, versions)
+    return pages.page(made, f"{explained.case.id}: one case, certified")
+
+
+def verdicts(explained: Explained) -> pd.DataFrame:
+    """method, outcome, time, error, detail of every method that answers the case's question, wrong answers first."""
+    found = metrics.judge(explained.said, pd.DataFrame([explained.row]))
+    found = found[~found.detail.fillna("").str.startswith("does not answer")]
+    order = {name: i for i, name in enumerate(("miss", "false alarm", "error", "timeout", "conservative", "right", "no label", "unsupported"))}
+    return found.assign(order=found.outcome.map(order)).sort_values("order", kind="stable")[["method", "outcome", "time", "error", "detail"]].reset_index(drop=True)
+
+
+def _body(row: dict) -> Body:
+    row = {"name": row["body"], "faces": [], **row}
+    if row["kind"] == "convex" and not row["faces"]:
+        return Body.convex(np.reshape(row["vertices"], (-1, 3)), row["name"])
+    return body_of(pd.Series(row))
+
+
+def _pose(row: dict, side: str) -> Pose:
+    return Pose(row.get(f"quaternion_{side}", [1, 0, 0, 0]), row.get(f"position_{side}", [0, 0, 0]))
+
+
+def _tags(row: dict) -> dict:
+    tags = row.get("tags", {})
+    return json.loads(tags) if isinstance(tags, str) else tags
+
+
+def _truth(row: dict) -> Truth:
+    t_lo, t_hi, gap = (math.nan if row.get(key) is None else float(row[key]) for key in ("t_lo", "t_hi", "gap"))
+    certificate = row.get("certificate", "{}")
+    return Truth(row["label"], t_lo, t_hi, row.get("start", "uncertain"), row.get("end", "uncertain"), gap, row.get("reason", ""),
+                 json.loads(certificate) if isinstance(certificate, str) else certificate)
+
+
+def _certify(query: Query) -> Truth:
+    from ..truth import label
+
+    return label(query)
+
+
+def _typed(said: pd.DataFrame) -> pd.DataFrame:
+    return said.astype({"hit": "boolean", "time": "float64"})
+
+
+def _listed(row: dict) -> dict:
+    made = {k: v.tolist() if isinstance(v, (np.ndarray, np.generic)) else v for k, v in row.items()}
+    return {k: None if isinstance(v, float) and math.isnan(v) else v for k, v in made.items()}

@@ -1,0 +1,27 @@
+"""One self-contained HTML file: the template, the style, the scripts, the libraries and the data, nothing from outside."""
+
+from __future__ import annotations
+
+import html
+from pathlib import Path
+
+from .payload import encode, pack
+
+HERE = Path(__file__).parent
+SCRIPTS = ("data.js", "text.js", "filters.js", "board.js", "plot.js", "pivot.js", "tables.js", "scene.js", "case.js", "gallery.js", "run.js", "main.js")
+LIBRARIES = ("plotly-basic.min.js", "three.min.js")
+
+
+def page(payload: dict, title: str) -> str:
+    """The text of the page. Its Content-Security-Policy forbids every request to a network."""
+    content = dict(payload)
+    bodies = content.pop("bytes")
+    blocks = {"data": encode(content), "bytes": pack(bodies)}
+    wanted = LIBRARIES if content["mode"] == "run" else LIBRARIES[1:]
+    blocks.update({name.split("-")[0].split(".")[0]: pack((HERE / "vendor" / name).read_bytes()) for name in wanted})
+    stores = "\n".join(f'<script type="application/octet-stream" id="{name}">{text}</script>' for name, text in blocks.items())
+    script = "\n".join((HERE / "page" / name).read_text() for name in SCRIPTS)
+    made = (HERE / "page" / "page.html").read_text()
+    for mark, text in (("TITLE", html.escape(title)), ("STYLE", (HERE / "page" / "style.css").read_text()), ("STORES", stores), ("SCRIPT", script)):
+        made = made.replace(f"@@{mark}@@", text)
+    return made

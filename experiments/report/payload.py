@@ -1,0 +1,256 @@
+"""What the page is given: the rows of a run, column by column, and the bodies of the cases it can draw, in bytes."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import math
+from typing import Any, Iterable
+
+import numpy as np
+import pandas as pd
+
+import ofg
+from baselines import registry
+from ofg import Body, Query
+
+from .. import metrics, scenarios, tables
+from ..rows import cases_of
+from ..store import Store
+from ..timing import FLOOR, LOST, PROBE, SIZES, situation_of, size_of
+from . import selection
+from .certificate import drawable
+
+CODES = {"right": "r", "miss": "m", "false alarm": "f", "conservative": "c", "no label": "n", "unsupported": "u", "error": "e", "timeout": "t"}
+SHOWN = 24  # cases of each kind that the gallery can draw for each method
+BYTES = 8_000_000  # of bodies, before compression: what a page may weigh
+EXACT = 5_000  # vertices up to which a body is never rounded
+OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
+
+
+def of_run(store: Store) -> dict:
+    """Everything the page of a run shows; see page/data.js for its reading."""
+    rows, found = store.read("cases.parquet"), metrics.outcomes(store)
+    made = {
+        "mode": "run", "run": _run(store), "codes": {code: name for name, code in CODES.items()}, "cases": _cases(rows), "sizes": [name for _, name in SIZES],
+        "bands": tables.gap_bands(pd.Series([], dtype=float))[1], "scenarios": _scenarios(rows), **_observations(found, rows),
+    }
+    made["methods"] = [_method(label, made["run"]["versions"]) for label in made["labels"]]
+    made["lanes"] = _lanes(store, rows) if store.has("timings.parquet") else {}
+    made["tables"] = [_table(t, found) for t in tables.build(store)]
+    return {**made, **_shapes(store, rows, found)}
+
+
+def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict) -> dict:
+    """The same for one case: `row` is its row of cases.parquet, `observations` what methods said about it."""
+    rows = pd.DataFrame([row])
+    found = metrics.judge(observations, rows)
+    made = {"mode": "case", "run": {"versions": versions}, "codes": {code: name for name, code in CODES.items()}, "cases": _cases(rows),
+            "sizes": [name for _, name in SIZES], "bands": tables.gap_bands(pd.Series([], dtype=float))[1], "scenarios": _scenarios(rows),
+            "lanes": {}, "tables": [], **_observations(found, rows)}
+    made["methods"] = [_method(label, versions) for label in made["labels"]]
+    shapes = Shapes(float("inf"))
+    shapes.add(0, case, truth, [label for label in made["labels"] if label.split()[0] == "ofg"], 20 * SHOWN)
+    return {**made, **shapes.packed()}
+
+
+def encode(payload: dict) -> str:
+    """JSON, gzip, base64: what page/data.js takes apart with DecompressionStream. The same bytes for the same payload."""
+    return pack(json.dumps(_plain(payload), allow_nan=False, separators=(",", ":")).encode())
+
+
+def pack(content: bytes) -> str:
+    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
+
+
+def _run(store: Store) -> dict:
+    manifest = json.loads(store.path("manifest.json").read_text())
+    noise = metrics.noise(store) if store.has("timings.parquet") else math.nan
+    return {"name": store.folder.resolve().name, "about": store.config.about, "noise": noise, "config": json.loads(store.config.model_dump_json()), **manifest}
+
+
+def _cases(rows: pd.DataFrame) -> dict:
+    relative = rows.gap / rows["size"]
+    situation = situation_of(rows).where(rows.label != "uncertain", "uncertain")
+    columns = ["case", "scenario", "level", "question", "label", "t_lo", "t_hi", "start", "end", "gap", "reason", "size", "faces", "displacement", "axis",
+               "angle", "quaternion_a", "position_a", "quaternion_b", "position_b", "attempt"]
+    made = {name: rows[name].tolist() for name in columns}
+    made.update(tags=[json.loads(t) for t in rows.tags], situation=situation.tolist(), sizes=size_of(rows.faces).tolist(),
+                band=tables.gap_bands(relative)[0].where(relative.notna(), None).tolist(), relative=relative.tolist())
+    return made
+
+
+def _scenarios(rows: pd.DataFrame) -> dict:
+    known = scenarios.scenarios()
+    return {name: {"axis": known[name].axis, "exposes": known[name].exposes} for name in rows.scenario.unique() if name in known}
+
+
+def _method(label: str, versions: dict) -> dict:
+    name, *_ = label.split()
+    cls = registry.methods().get(name)
+    if cls is None:
+        return {"label": label, "name": name, "curve": label, "engine": name, "configuration": "", "solid": None, "margin": 0, "guarantee": "its file is not here", "answers": [], "bodies": []}
+    try:
+        (method,) = registry.make(label)
+    except (ValueError, ImportError):
+        method = cls
+    return {"label": label, "name": name, "curve": _curve(label, cls), "engine": cls.engine, "version": versions.get(cls.engine), "configuration": method.configuration, "solid": method.solid,
+            "margin": float(method.margin), "guarantee": cls.guarantee, "answers": [q for q in ofg.QUESTIONS if q in cls.questions],
+            "bodies": sorted(cls.bodies)}
+
+
+def _curve(label: str, cls) -> str:
+    """The label without the method's first parameter: what its accuracy-speed curve holds fixed."""
+    first = next(iter(cls.parameters), None)
+    return " ".join(word for word in label.split() if word.split("=")[0] != first)
+
+
+def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
+    """labels; outcome: of each method one letter for each case ("." where there is no row); time, error, detail: sparse."""
+    place = {case: i for i, case in enumerate(rows.case)}
+    labels = list(dict.fromkeys(found.method))
+    made = {"labels": labels, "outcome": [], "time": [], "error": [], "detail": [], "details": []}
+    known: dict[str, int] = {}
+    for _, part in found.groupby(pd.Categorical(found.method, labels), observed=True):
+        letters = ["."] * len(rows)
+        at = part.case.map(place)
+        for i, outcome in zip(at, part.outcome):
+            letters[i] = CODES[outcome]
+        made["outcome"].append("".join(letters))
+        for name in ("time", "error"):
+            there = part[name].notna()
+            made[name].append([at[there].tolist(), part[name][there].tolist()])
+        said = part.detail.fillna("") != ""
+        made["detail"].append([at[said].tolist(), [known.setdefault(d, len(known)) for d in part.detail[said]]])
+    made["details"] = list(known)
+    return made
+
+
+def _lanes(store: Store, rows: pd.DataFrame) -> dict:
+    """lane -> method -> {cases, ns: medians over rounds; floors: [question, faces, situation, ns]}; "python" where no lane is named."""
+    place = {case: i for i, case in enumerate(rows.case)}
+    times = store.read("timings.parquet")
+    times = times[~times.method.isin([PROBE, LOST])]
+    times = times.assign(ns=[float(np.median(r)) for r in times.rounds_ns], lane=times.lane if "lane" in times else "python")
+    lanes: dict[str, dict] = {}
+    for (lane, label), part in times.groupby(["lane", "method"], sort=False):
+        floor, real = part[part.case == FLOOR], part[part.case != FLOOR]
+        lanes.setdefault(lane, {})[label] = {
+            "cases": [place[c] for c in real.case], "ns": real.ns.tolist(), "build": real.build_ns.tolist(),
+            "floors": floor[["question", "faces", "situation", "ns"]].values.tolist()}
+    return lanes
+
+
+def _table(table, found: pd.DataFrame) -> dict:
+    from .cells import links
+
+    return {"name": table.name, "title": table.title, "caption": table.caption, "columns": [str(c) for c in table.text.columns],
+            "rows": table.text.astype(str).values.tolist(), "links": links(table, found)}
+
+
+def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
+    """Bodies, certificates and OFG's selections of the cases that can be drawn: first those of the gallery, then the rest, while there is room."""
+    wanted = gallery(found)
+    order = list(dict.fromkeys([*wanted, *rows.case]))
+    place = {case: i for i, case in enumerate(rows.case)}
+    known = {case.id: (case, truth) for case, truth in cases_of(rows, store.read("bodies.parquet"))}
+    shapes, ours = Shapes(BYTES), [label for label in found.method.unique() if label.split()[0] == "ofg"]
+    for i in order:
+        labels = [label for label in wanted.get(i, ()) if label.split()[0] == "ofg"] or ours[:1]
+        shapes.add(place[i], *known[i], labels, SHOWN)
+    return shapes.packed()
+
+
+def gallery(found: pd.DataFrame) -> dict[str, list[str]]:
+    """case -> methods that it is shown for: of each method up to SHOWN misses, false alarms and late times, spread over scenarios and levels;
+    of late times the latest."""
+    wanted: dict[str, list[str]] = {}
+    for label, part in found.groupby("method", sort=False):
+        late = part[part.error > 0].sort_values("error", ascending=False)
+        kinds = [_spread(part[part.outcome == "miss"]), _spread(part[part.outcome == "false alarm"]), late]
+        for case in dict.fromkeys(c for kind in kinds for c in kind.case[:SHOWN]):
+            wanted.setdefault(case, []).append(label)
+    return wanted
+
+
+def _spread(part: pd.DataFrame) -> pd.DataFrame:
+    return part.assign(turn=part.groupby(["scenario", "level"]).cumcount()).sort_values(["turn", "scenario", "level"], kind="stable")
+
+
+class Shapes:
+    """Collects bodies (each once), certificates and selections until `room` bytes are full."""
+
+    def __init__(self, room: float):
+        self.room, self.bytes = room, bytearray()
+        self.bodies, self.drawn, self.proofs, self.ofg = [], {}, {}, {}
+        self._known: dict[str, int] = {}
+
+    def add(self, place: int, case, truth, labels: Iterable[str], most: int) -> None:
+        q = case.query
+        cost = sum(_cost(body) for body in {b.digest: b for b in (q.a, q.b)}.values() if body.digest not in self._known)
+        if len(self.bytes) + cost > self.room:
+            return
+        self.drawn[place] = [self._body(q.a), self._body(q.b)]
+        self.proofs[place] = drawable(truth.certificate)
+        for label in list(labels)[:min(OVERLAYS, most)]:
+            made = self._trace(q, label, truth)
+            if made:
+                self.ofg.setdefault(place, {})[label] = made
+
+    def packed(self) -> dict:
+        return {"bodies": self.bodies, "drawn": self.drawn, "proofs": self.proofs, "ofg": self.ofg, "bytes": bytes(self.bytes)}
+
+    def _trace(self, query: Query, label: str, truth) -> dict | None:
+        """What OFG looked at; None where the method refuses the query. "bodies" where it saw pieces of a mesh."""
+        (method,) = registry.make(label)
+        options = {**method._options()}
+        if options.get("concave") != "undivided":
+            try:
+                pieces = [ofg.decompose(query.a), ofg.decompose(query.b)]
+            except ofg.BodyError:
+                return None
+            query = Query(query.question, *pieces, query.pose_a, query.pose_b, query.motion)
+        made = selection.trace(query, options, truth.t_hi)
+        seen = [query.a.digest, query.b.digest]
+        if any(d not in self._known for d in seen):
+            made["bodies"] = [self._body(query.a), self._body(query.b)]
+        else:
+            made["bodies"] = [self._known[d] for d in seen]
+        return made
+
+    def _body(self, body: Body) -> int:
+        if body.digest in self._known:
+            return self._known[body.digest]
+        vertices, faces = body.vertices, body.faces
+        exact = np.array_equal(vertices, vertices.astype(np.float32))
+        kind = "f4" if exact or len(vertices) > EXACT else "f8"
+        index = "u2" if len(vertices) < 65536 else "u4"
+        entry: dict[str, Any] = {"name": body.name, "kind": body.kind, "v": [self._put(vertices.astype("<" + kind)), kind, len(vertices)],
+                                 "f": [self._put(faces.astype("<" + index)), index, len(faces)], "rounded": kind == "f4" and not exact}
+        if body.kind == "union":
+            entry["pieces"] = [[len(p.vertices), len(p.faces)] for p in body.pieces]
+        self.bodies.append(entry)
+        self._known[body.digest] = len(self.bodies) - 1
+        return self._known[body.digest]
+
+    def _put(self, array: np.ndarray) -> int:
+        self.bytes.extend(b"\0" * (-len(self.bytes) % 8))
+        start = len(self.bytes)
+        self.bytes.extend(array.tobytes())
+        return start
+
+
+def _cost(body: Body) -> int:
+    return 24 * len(body.vertices) + 6 * len(body.faces)
+
+
+def _plain(value):
+    """JSON has no NaN: None in its place; numpy's numbers become Python's."""
+    if isinstance(value, dict):
+        return {str(k): _plain(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [_plain(v) for v in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,20 @@
+"""One small run with every kind of question, body and outcome, for all tests of the report."""
+
+import pytest
+
+from experiments import runner
+from experiments.config import RunConfig
+from experiments.store import Store
+
+CONFIG = RunConfig(
+    about="A run for the tests of the report.", seed=11, timing={"cases": 2, "rounds": 3, "warmup": 1},
+    methods=["ofg k=4,8", "ofg k=8 repairs=all", "brute-force", "fcl-convex", "bullet", "fcl-convex-substeps n=1,4", "fcl-ccd-mesh"],
+    scenarios=[{"name": "feature_gap", "cases": 3, "levels": [1e-2, -1e-2]}, {"name": "contained", "cases": 3, "levels": [0.1]}, {"name": "deep", "cases": 3, "levels": [0.1]},
+               {"name": "hooked_ls", "cases": 2}, {"name": "thin_wall", "cases": 4, "levels": [10.0]}, {"name": "spin_side", "cases": 4, "levels": [1.0]}])
+
+
+@pytest.fixture(scope="session")
+def run(tmp_path_factory) -> Store:
+    folder = tmp_path_factory.mktemp("report") / "run"
+    runner.run(CONFIG, folder, workers=2)
+    return Store(folder)
