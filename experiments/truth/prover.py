@@ -11,7 +11,7 @@ from . import _native
 from .exact import exact_time
 from .label import Truth
 
-EFFORT = 1e8  #: vertices visited per case before the prover gives up
+EFFORT = 3e7  #: vertices visited per case before the prover gives up
 _solids: WeakKeyDictionary[Body, _native.Solid] = WeakKeyDictionary()
 
 

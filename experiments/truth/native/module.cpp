@@ -62,7 +62,7 @@ NB_MODULE(_native, m) {
         Prover prover(pair, A, B, limit);
         Instant i = prover.at(t);
         auto out = pack(i);
-        if (i.label == "hit") out["depth"] = prover.depth_at(t);
+        if (i.label == "hit") out["depth"] = prover.depth_at(t, i.common);
         out["spent"] = prover.effort().spent();
         return out;
     });

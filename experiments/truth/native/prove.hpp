@@ -42,9 +42,10 @@ class Prover {
     }
     const Effort& effort() const { return effort_; }
 
-    // Depth at t: of the deepest of the overlapping pieces; NaN with a mesh. An estimate.
-    double depth_at(double t) {
-        if (A_.mesh || B_.mesh) return std::nan("");
+    // Depth at t, an estimate: of the deepest of the overlapping pieces. With a mesh: the diameter of the largest ball found inside
+    // both, growing from the common point.
+    double depth_at(double t, const Common& common) {
+        if (A_.mesh || B_.mesh) return ball(t, common);
         double deepest = 0;
         deepen(0, 0, t, deepest);
         return deepest;
@@ -52,6 +53,7 @@ class Prover {
 
     Instant at(double t) {
         Instant out;
+        attempts_ = 0;
         if (single() && !A_.mesh && !B_.mesh) {
             if (!settle(quick(0, 0), t, out)) { Exact e(*this, 0, 0); settle(e.placed, t, out); }
             return out;
@@ -103,8 +105,21 @@ class Prover {
   private:
     void finish(Proof& p) {
         p.end = at(1);
-        p.depth = depth_at(p.t_hi);
-        for (int i = 1; i <= 16; ++i) p.depth = std::max(p.depth, depth_at(p.t_hi + (1 - p.t_hi) * i / 16));
+        // Deepest of instants at growing distances from the impact (a thin wall is crossed in a small part of the step).
+        const bool meshes = A_.mesh || B_.mesh;
+        auto depth_of = [&](double t) {
+            Instant there;
+            if (meshes) there = at(t);
+            return !meshes || there.label == "hit" ? depth_at(t, there.common) : 0.0;
+        };
+        p.depth = depth_at(p.t_hi, p.common);
+        double best = p.t_hi, ratio = meshes ? 0.03 : 0.2, rest = 1 - p.t_hi;
+        for (double f = 1; f > 1e-11 && p.t_hi + f * rest > p.t_hi; f *= ratio) {
+            double d = depth_of(p.t_hi + f * rest);
+            if (d > p.depth) p.depth = d, best = p.t_hi + f * rest;
+        }
+        double lo = p.t_hi + (best - p.t_hi) * ratio, hi = std::min(1.0, p.t_hi + (best - p.t_hi) / ratio);
+        for (int i = 1; i < (meshes ? 3 : 9) && hi > lo; ++i) p.depth = std::max(p.depth, depth_of(lo + (hi - lo) * i / (meshes ? 3 : 9)));
     }
     struct Stuck { int a, b; double t; };
     struct Cover { Tree tree; std::vector<Stuck> stuck; double until = 1, least = 1e300, at = 0; bool found = false; };
@@ -118,6 +133,7 @@ class Prover {
     Scene<double> sd_;
     Scene<dd> sq_;
     double theta_, blur_;
+    int attempts_ = 0;  // pairs of elements in which a common point was sought and not found, at one instant
     Effort effort_;
     std::vector<Points<double>> ra_, rb_;
 
@@ -164,6 +180,27 @@ class Prover {
         return B_.nodes[nb].left < 0 || A_.nodes[na].radius >= B_.nodes[nb].radius;
     }
 
+    double ball(double t, const Common& c) {
+        auto x = unwide(c.point);
+        vec<dd> at_ = x;
+        double r = room(x, t), step = r > 0 ? r : 0;
+        unsigned long long seed = 11;
+        auto draw = [&] { return double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 4294967296.0 - 0.25; };
+        for (int i = 0; i < 48 && step > 1e-2 * r && !effort_.spent(); ++i) {
+            step = std::min(step, 0.9 * r);  // so that the next centre is inside too
+            vec<double> u{draw(), draw(), draw()};
+            u = u * (step / std::max(norm(u), 1e-3));
+            vec<dd> y = at_ + vec<dd>{dd(u.x), dd(u.y), dd(u.z)};
+            double q = room(y, t);
+            if (q > r) at_ = y, r = q, step *= 2;
+            else step *= 0.8;
+        }
+        return 2 * r;
+    }
+    double room(vec<dd> x, double t) {  // radius of a ball about a common point x that no surface of A or B enters
+        vec<dd> ya = transposed(sq_.RA, transposed(sq_.turn(dd(t)), x - sq_.d * dd(t))), yb = transposed(sq_.RB, x - sq_.dp);
+        return std::min(A_.room(ya), B_.room(yb));
+    }
     void deepen(int na, int nb, double t, double& deepest) {
         if (effort_.spent() || 1e3 * blur_ - sphere_gap(na, nb, t) <= deepest) return;
         auto P = quick(na, nb);
@@ -191,7 +228,7 @@ class Prover {
         return best;
     }
     void nearest(int na, int nb, double t, double& best, Common* common = nullptr, bool* found = nullptr) {
-        if (best <= 0 || effort_.spent() || sphere_gap(na, nb, t) >= best) return;
+        if (effort_.spent() || sphere_gap(na, nb, t) >= best) return;
         double least = std::min(A_.nodes[na].radius, B_.nodes[nb].radius);
         if (leaf_pair(na, nb) || sphere_gap(na, nb, t) > -0.7 * least) {
             auto P = quick(na, nb);
@@ -289,12 +326,13 @@ class Prover {
         for (auto it = c.stuck.rbegin(); it != c.stuck.rend() && it - c.stuck.rbegin() < 8; ++it)
             if (crossing(it->a, it->b, t, common)) return true;
         if (single() && !A_.mesh && !B_.mesh) return false;
-        Cover now = cover(t, t, 0, &common);
-        return now.found;
+        attempts_ = 0;
+        return cover(t, t, 0, &common).found || anywhere(t, common);
     }
 
     // A point of the crossing of two elements, moved into the solid where an element is only a triangle of its surface.
     bool crossing(int na, int nb, double t, Common& out) {
+        if (attempts_++ > 48) return false;
         if (!A_.mesh && !B_.mesh) {
             auto P = quick(na, nb);
             auto w = inside<double>(P.at(t), P.b, P.reach);
@@ -314,7 +352,7 @@ class Prover {
         if (!(norm(inward) > dd(1e-20))) return false;
         double reach = e.placed.reach;
         for (auto& y : shared(x, e.b, reach)) {
-            for (double depth = 0.03 * std::min(A_.size, B_.size); depth > 1e-27 * reach; depth *= 0.125)
+            for (double depth = 0.03 * std::min(A_.size, B_.size); depth > 1e-27 * reach; depth *= 0.02)
                 if (holds(y + inward * dd(depth), t, out)) return true;
         }
         return false;
@@ -416,9 +454,9 @@ class Prover {
                 }
                 m = m * (dd(1) / dd(total));
                 if (s.mesh) n = unit(cross(p[1] - p[0], p[2] - p[0]));
-                for (double depth = s.mesh ? 0.05 * std::min(A_.size, B_.size) : 0; ; depth *= 0.125) {
+                for (double depth = s.mesh ? 0.05 * std::min(A_.size, B_.size) : 0; ; depth *= 0.02) {
                     if (holds(world(side, m - n * dd(depth), t), t, out)) return true;
-                    if (!s.mesh || depth < 1e-17 * s.size || effort_.spent()) break;
+                    if (!s.mesh || depth < 1e-18 * s.size || effort_.spent()) break;
                 }
             }
         }
@@ -428,33 +466,41 @@ class Prover {
         return side ? sq_.RB * y + sq_.dp : sq_.turn(dd(t)) * (sq_.RA * y) + sq_.d * dd(t);
     }
 
-    // A clear sweep: prove it again with a margin close to the least distance.
+    // A clear sweep: prove it again with a margin close to the least distance, which the places where that fails help to find.
     void widen(Proof& p, const Cover& c) {
-        double least = c.least;
-        int best = -1;
+        double least = single() ? c.least : 1e300;  // of groups it would be that of their hulls
         const int n = single() ? 16 : 12;
+        int best = 0;
+        double lowest = 1e300;
         for (int i = 0; i <= n; ++i) {
             double d = distance(double(i) / n);
-            if (d < least || best < 0) best = i;
-            least = std::min(least, d);
+            if (d < lowest) lowest = d, best = i;
         }
-        double lo = std::max(0.0, double(best - 1) / n), hi = std::min(1.0, double(best + 1) / n);
-        if (c.least <= least) lo = std::max(0.0, c.at - 1.0 / n), hi = std::min(1.0, c.at + 1.0 / n);
+        least = std::min(least, lowest);
+        least = std::min(least, dip(double(best) / n, 1.0 / n));
+        if (single() && std::abs(c.at - double(best) / n) > 1.0 / n) least = std::min(least, dip(c.at, 1.0 / n));
+        double exactly = theta_ == 0 && single() ? 1 - 1e-7 : 0.98;
+        for (double share : {exactly, 0.95, 0.95, 0.8, 0.4, 0.1}) {
+            if (!(share * least > 64 * blur_)) return;
+            Cover again = cover(0, 1, share * least, nullptr);
+            if (effort_.spent()) return;
+            if (again.stuck.empty()) {
+                p.tree = std::move(again.tree), p.gap = share * least;
+                return;
+            }
+            least = std::min(least, dip(again.until, 1.0 / n));
+        }
+    }
+    double dip(double t, double width) {  // least distance near t, by golden section
         const double r = 0.6180339887498949;
+        double lo = std::max(0.0, t - width), hi = std::min(1.0, t + width), least = distance(t);
         double x = hi - r * (hi - lo), y = lo + r * (hi - lo), fx = distance(x), fy = distance(y);
-        for (int i = 0; i < (theta_ == 0 && single() ? 40 : 20); ++i) {
+        for (int i = 0; i < (single() ? 36 : 16); ++i) {
             if (fx < fy) hi = y, y = x, fy = fx, x = hi - r * (hi - lo), fx = distance(x);
             else lo = x, x = y, fx = fy, y = lo + r * (hi - lo), fy = distance(y);
             least = std::min({least, fx, fy});
         }
-        for (double share : {1 - 1e-7, 0.98, 0.8, 0.4, 0.1}) {
-            if (share > 0.99 && !(theta_ == 0 && single())) continue;
-            if (!(share * least > 64 * blur_)) return;
-            Cover again = cover(0, 1, share * least, nullptr);
-            if (effort_.spent() || !again.stuck.empty()) continue;
-            p.tree = std::move(again.tree), p.gap = share * least;
-            return;
-        }
+        return least;
     }
 };
 

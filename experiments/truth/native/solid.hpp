@@ -2,7 +2,7 @@
 #pragma once
 #include <numeric>
 
-#include "convex.hpp"
+#include "depth.hpp"
 
 namespace truth {
 
@@ -38,7 +38,46 @@ class Solid {
         return std::nullopt;
     }
 
+    // Distance from an inner point y (body frame) to the surface; of pieces, to that of the piece in which it is deepest.
+    double room(vec<dd> y) const {
+        if (mesh) {
+            double best = 1e300;
+            nearest(0, y, best);
+            return best;
+        }
+        double best = 0;
+        for (size_t i = 0; i < elements.size(); ++i) best = std::max(best, depth_in(i, y));
+        return best;
+    }
+
   private:
+    void nearest(int id, vec<dd> y, double& best) const {
+        auto& n = nodes[id];
+        if (std::hypot(double(y.x) - n.centre[0], double(y.y) - n.centre[1], double(y.z) - n.centre[2]) - n.radius >= best) return;
+        if (n.left >= 0) {
+            nearest(n.left, y, best);
+            nearest(n.right, y, best);
+            return;
+        }
+        Gjk<double> g;  // the triangle's point closest to y
+        for (int i = 0; i < 3; ++i) {
+            vec<dd> w = vec<dd>{dd(n.v[i][0]), dd(n.v[i][1]), dd(n.v[i][2])} - y;
+            g.s[i].c = {double(w.x), double(w.y), double(w.z)};
+        }
+        g.n = 3;
+        detail::point3(g);
+        best = std::min(best, norm(g.v));
+    }
+    // Least distance of y from the hull's supporting planes, over the directions in which the hull is thin about y: an estimate.
+    double depth_in(size_t i, vec<dd> y) const {
+        Points<double> p, o(1, vec<double>{});
+        for (auto& v : elements[i]) {
+            vec<dd> w = vec<dd>{dd(v[0]), dd(v[1]), dd(v[2])} - y;
+            p.push_back({double(w.x), double(w.y), double(w.z)});
+        }
+        Effort free{0, 1e300};
+        return depth(o, p, largest(p), free);
+    }
     void finish() {
         order.resize(elements.size());
         std::iota(order.begin(), order.end(), 0);
