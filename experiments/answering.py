@@ -26,7 +26,7 @@ def ask(store: Store, config: RunConfig, workers: int) -> None:
     if store.has("observations.parquet"):
         return
     cases = [case for case, _ in cases_of(store.read("cases.parquet"), store.read("bodies.parquet"))]
-    methods = [m for spec in config.methods for m in registry.make(spec)]
+    methods = [m for spec in config.asked for m in registry.make(spec)]
     chunks = [cases[i:i + CHUNK] for i in range(0, len(cases), CHUNK)]
     tasks, names = [], []
     for m, method in enumerate(methods):

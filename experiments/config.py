@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import difflib
 import tomllib
+from functools import cache
+from importlib.metadata import entry_points
 from pathlib import Path
+from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 PRESETS = Path(__file__).parent / "presets"
+CATALOGUE = Path(__file__).parent / "catalogue"
+GROUP = "ofg.experiments"  # entry points of installed packages that bring experiments: the path of a .toml file, or of a folder of them
 
 
 class ConfigError(ValueError):
@@ -36,13 +41,45 @@ class TimingChoice(_Strict):
     reference: str = Field(default="", description="method that ratios are taken to [the run's first]")
 
 
-class RunConfig(_Strict):
-    """methods: specifications such as "ofg k=4,8,16": a name, then parameters, several values each."""
+Value = Literal["misses", "false alarms", "wrong", "tunnelled", "answered", "time error", "latest", "earliest",
+                "net time", "gross time", "build time", "ratio"]
 
-    about: str = ""
+
+class TableChoice(_Strict):
+    """A table particular to an experiment: a row per method, a column per value of `columns`, `value` in the cells."""
+
+    name: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="its files are tables/NAME.csv, .md and .tex")
+    title: str
+    note: str = ""
+    value: Value
+    columns: str = Field(default="level", description="level, scenario, question, situation, faces (ranges), band (signed gap over size), or a tag of the scenarios")
+    scenarios: tuple[str, ...] = Field(default=(), description="only cases of these [all]")
+    question: str = Field(default="", description="only cases of this question [all]")
+    headline: bool = Field(default=True, description="printed at the end of the run")
+
+
+class SteppingChoice(_Strict):
+    """The stepping track: engines as simulators, in scenes of experiments/stepping instead of scenarios."""
+
+    runs: int = Field(ge=1, description="runs for each cell, each at a start phase of its own")
+    scenes: tuple[str, ...] = Field(default=(), description="names of scenes [all]")
+    travels: tuple[float, ...] = Field(default=(), description="thicknesses per step [those of the track]")
+
+
+class RunConfig(_Strict):
+    """methods: specifications such as "ofg k=4,8,16": a name, then parameters, several values each.
+
+    optional_methods: the same, of engines that may be absent: the run then says so and leaves their rows `unsupported`.
+    """
+
+    title: str = ""
+    about: str = Field(default="", description="the question that it answers, in a sentence")
     seed: int = Field(ge=0)
-    methods: tuple[str, ...] = Field(min_length=1)
-    scenarios: tuple[ScenarioChoice, ...] = Field(min_length=1)
+    methods: tuple[str, ...] = ()
+    optional_methods: tuple[str, ...] = ()
+    scenarios: tuple[ScenarioChoice, ...] = ()
+    stepping: SteppingChoice | None = None
+    tables: tuple[TableChoice, ...] = ()
     timing: TimingChoice = TimingChoice()
     method_files: tuple[str, ...] = Field(default=(), description="Python files with METHODS = [...] of your own")
     scenario_files: tuple[str, ...] = Field(default=(), description="Python files with SCENARIO = ... of your own")
@@ -50,19 +87,60 @@ class RunConfig(_Strict):
     query_seconds: float = Field(default=10.0, gt=0, description="limit for one query, after which it counts as timeout")
     label_seconds: float = Field(default=30.0, gt=0, description="limit for one label, after which it counts as uncertain")
 
+    @model_validator(mode="after")
+    def _something_to_do(self):
+        if not self.stepping:
+            for field in ("methods", "scenarios"):
+                if not getattr(self, field):
+                    raise ValueError(f"{field} needs at least 1 entry")
+        return self
+
+    @property
+    def asked(self) -> tuple[str, ...]:
+        """All specifications, the optional ones last."""
+        return self.methods + self.optional_methods
+
+    def same_rows(self, other: RunConfig) -> bool:
+        """Whether the rows of both runs are the same: they differ in words and tables alone."""
+        words = {"title", "about", "tables"}
+        return self.model_dump(exclude=words) == other.model_dump(exclude=words)
+
 
 def presets() -> list[str]:
     return sorted(p.stem for p in PRESETS.glob("*.toml"))
 
 
+@cache
+def experiments() -> dict[str, Path]:
+    """name -> file of every experiment: those of the catalogue, then those of installed packages. Raises ConfigError."""
+    found = {p.stem: p for p in sorted(CATALOGUE.glob("*.toml"))}
+    for entry in entry_points(group=GROUP):
+        try:
+            path = Path(entry.load())
+        except Exception as error:
+            raise ConfigError(f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded ({type(error).__name__}: {error}). It "
+                              "names an object that is the path of a .toml file or of a folder; mend or uninstall its package.") from error
+        for file in sorted(path.glob("*.toml")) if path.is_dir() else [path]:
+            if file.stem in found or file.stem in presets():
+                raise ConfigError(f"The entry point '{entry.name}' of the group {GROUP} brings an experiment '{file.stem}', a name that is taken; rename its file.")
+            found[file.stem] = file
+    return found
+
+
+def path_of(source: str) -> Path:
+    """The file of a preset or experiment by name, or of a TOML file by its path. Raises ConfigError."""
+    if Path(source).suffix == ".toml":
+        return Path(source)
+    known = {**experiments(), **{name: PRESETS / f"{name}.toml" for name in presets()}}
+    if source not in known:
+        raise ConfigError(f"There is no preset or experiment '{source}'{closest(source, known)}. The presets are {', '.join(presets())}; the "
+                          f"experiments are {', '.join(experiments())}; a configuration of your own is a path that ends in .toml.")
+    return known[source]
+
+
 def load(source: str) -> RunConfig:
-    """A preset's name, or the path of a TOML file. Raises ConfigError."""
-    path = Path(source)
-    if path.suffix != ".toml":
-        path = PRESETS / f"{source}.toml"
-        if not path.is_file():
-            raise ConfigError(f"There is no preset '{source}'{closest(source, presets())}. The presets are "
-                              f"{', '.join(presets())}; a configuration of your own is a path that ends in .toml.")
+    """A preset's or an experiment's name, or the path of a TOML file. Raises ConfigError."""
+    path = path_of(source)
     if not path.is_file():
         raise ConfigError(f"The configuration file {path} does not exist. Copy one of the presets "
                           "(ofg-bench preset quick > mine.toml) and start from there.")
@@ -72,7 +150,7 @@ def load(source: str) -> RunConfig:
         raise ConfigError(f"The configuration file {path} is not valid TOML: {error}.") from error
     except ValidationError as error:
         raise ConfigError(f"The configuration file {path} has {error.error_count()} wrong field(s): " + "; ".join(
-            f"{'.'.join(map(str, e['loc']))}: {e['msg'][:1].lower()}{e['msg'][1:]}" for e in error.errors()) + ".") from error
+            f"{': '.join(['.'.join(map(str, e['loc']))] * bool(e['loc']) + [e['msg'][:1].lower() + e['msg'][1:]])}" for e in error.errors()) + ".") from error
 
 
 def load_files(config: RunConfig) -> None:

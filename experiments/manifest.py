@@ -30,7 +30,7 @@ def machine() -> dict:
 
 
 def versions(config: RunConfig) -> dict:
-    engines = {m.engine for spec in config.methods for m in registry.make(spec)}
+    engines = {m.engine for spec in config.asked for m in registry.make(spec)}
     return {name: _version(name) for name in sorted(engines | set(LIBRARIES))}
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from pathlib import Path
 
@@ -30,17 +29,15 @@ class Store:
 
     def begin(self, config: RunConfig) -> None:
         """Claim the folder for this configuration, or go on with the same one. StoreError where another run is there."""
-        wanted = config.model_dump(mode="json")
         if self.path("config.json").exists():
-            found = json.loads(self.path("config.json").read_text())
-            if found != wanted:
-                changed = ", ".join(k for k in wanted if found.get(k) != wanted[k])
+            if not config.same_rows(self.config):
+                wanted, found = config.model_dump(), self.config.model_dump()
+                changed = ", ".join(k for k in wanted if found[k] != wanted[k])
                 raise StoreError(f"The folder {self.folder} holds a run of another configuration (it differs in: {changed}). "
                                  "Choose another folder with --out, or remove that one.")
         elif self.folder.exists() and any(self.folder.iterdir()):
             raise StoreError(f"The folder {self.folder} is not empty and holds no run. Choose another one with --out.")
-        else:
-            self.write_text(json.dumps(wanted, indent=1), "config.json")
+        self.write_text(config.model_dump_json(indent=1) + "\n", "config.json")
 
     @property
     def config(self) -> RunConfig:

@@ -72,7 +72,7 @@ def choose(store: Store, config: RunConfig) -> list[Bin]:
     cases, observations = store.read("cases.parquet"), store.read("observations.parquet")
     objects = {case.id: case for case, _ in cases_of(cases, store.read("bodies.parquet"))}
     answered = observations[observations.status == "ok"].groupby("case").method.agg(set)
-    labels = [m.label for spec in config.methods for m in registry.make(spec)]
+    labels = [m.label for spec in config.asked for m in registry.make(spec)]
     cases = cases[cases.label != "uncertain"].assign(faces=lambda c: size_of(c.faces), situation=situation_of)
     bins = []
     for (question, faces, situation), rows in cases.groupby(["question", "faces", "situation"], sort=False, observed=True):
