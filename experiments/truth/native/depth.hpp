@@ -5,7 +5,8 @@
 namespace truth {
 
 // The least width |max n.a - min n.b| over the directions the polytope has tried; 0 if the sets do not overlap as far as T sees.
-template <class T> double depth(const Points<T>& A, const Points<T>& B, double reach, Effort& effort) {
+// thin: gets the unit direction in which B is moved off A the soonest, reversed.
+template <class T> double depth(const Points<T>& A, const Points<T>& B, double reach, Effort& effort, vec<T>* thin = nullptr) {
     struct Facet { int v[3]; vec<T> n; T far; bool live; };
     auto g = gjk<T>(A, B, B[0] - A[0], reach, 1e-3);
     if (g.status == Status::Unknown) {  // symmetric poses put the origin on a simplex: move B off by less than matters
@@ -39,6 +40,7 @@ template <class T> double depth(const Points<T>& A, const Points<T>& B, double r
         effort.done += double(A.size() + B.size()) * (std::is_same_v<T, double> ? 1 : 20);
         auto w = B[support(B, n)] - A[support(A, -n)];
         double width = double(dot(n, w));
+        if (width < least && thin) *thin = -n;
         least = std::min(least, width);
         if (width - double(facets[best].far) <= 1e-3 * std::abs(width) || double(facets[best].far) >= least) break;
         int id = int(p.size());

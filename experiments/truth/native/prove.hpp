@@ -180,26 +180,36 @@ class Prover {
         return B_.nodes[nb].left < 0 || A_.nodes[na].radius >= B_.nodes[nb].radius;
     }
 
+    // The largest ball inside both, from a common point: away from the nearer surface to half way between the two, and some luck.
     double ball(double t, const Common& c) {
-        auto x = unwide(c.point);
-        vec<dd> at_ = x;
-        double r = room(x, t), step = r > 0 ? r : 0;
+        vec<dd> x = unwide(c.point);
+        auto turn = sq_.turn(dd(t));
+        vec<double> away_a, away_b;
+        auto room = [&](vec<dd> y, double& ra, double& rb) {
+            effort_.done += 200;
+            ra = A_.room(transposed(sq_.RA, transposed(turn, y - sq_.d * dd(t))), away_a);
+            rb = B_.room(transposed(sq_.RB, y - sq_.dp), away_b);
+            away_a = sd_.turn(t) * (sd_.RA * away_a), away_b = sd_.RB * away_b;
+            return std::min(ra, rb);
+        };
         unsigned long long seed = 11;
-        auto draw = [&] { return double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 4294967296.0 - 0.25; };
-        for (int i = 0; i < 48 && step > 1e-2 * r && !effort_.spent(); ++i) {
-            step = std::min(step, 0.9 * r);  // so that the next centre is inside too
-            vec<double> u{draw(), draw(), draw()};
-            u = u * (step / std::max(norm(u), 1e-3));
-            vec<dd> y = at_ + vec<dd>{dd(u.x), dd(u.y), dd(u.z)};
-            double q = room(y, t);
-            if (q > r) at_ = y, r = q, step *= 2;
-            else step *= 0.8;
+        auto draw = [&] { return double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 2147483648.0 - 0.5; };
+        double ra, rb, r = room(x, ra, rb), step = r;
+        vec<double> to_a = away_a, to_b = away_b;
+        for (int i = 0; i < 36 && step > 1e-2 * r && !effort_.spent(); ++i) {
+            vec<double> u;
+            if (i % 3 == 0) u = (to_a + to_b) * (std::min(step, 0.9 * r) / std::max(norm(to_a + to_b), 1e-3));
+            else if (i % 3 == 1) u = ra < rb ? to_a * std::min(0.5 * (rb - ra) + 0.1 * step, 0.9 * r) : to_b * std::min(0.5 * (ra - rb) + 0.1 * step, 0.9 * r);
+            else {
+                u = {draw(), draw(), draw()};
+                u = u * (std::min(step, 0.9 * r) / std::max(norm(u), 1e-3));  // never out of the ball: the next centre is inside too
+            }
+            vec<dd> y = x + vec<dd>{dd(u.x), dd(u.y), dd(u.z)};
+            double qa, qb, q = room(y, qa, qb);
+            if (q > r) x = y, r = q, ra = qa, rb = qb, to_a = away_a, to_b = away_b, step = std::min(2 * step, r);
+            else if (i % 3 == 2) step *= 0.6;
         }
         return 2 * r;
-    }
-    double room(vec<dd> x, double t) {  // radius of a ball about a common point x that no surface of A or B enters
-        vec<dd> ya = transposed(sq_.RA, transposed(sq_.turn(dd(t)), x - sq_.d * dd(t))), yb = transposed(sq_.RB, x - sq_.dp);
-        return std::min(A_.room(ya), B_.room(yb));
     }
     void deepen(int na, int nb, double t, double& deepest) {
         if (effort_.spent() || 1e3 * blur_ - sphere_gap(na, nb, t) <= deepest) return;
@@ -468,6 +478,10 @@ class Prover {
 
     // A clear sweep: prove it again with a margin close to the least distance, which the places where that fails help to find.
     void widen(Proof& p, const Cover& c) {
+        if (theta_ == 0 && single()) {
+            if (!swept(quick(0, 0), p)) { Exact e(*this, 0, 0); swept(std::move(e.placed), p); }
+            return;
+        }
         double least = single() ? c.least : 1e300;  // of groups it would be that of their hulls
         const int n = single() ? 16 : 12;
         int best = 0;
@@ -479,8 +493,7 @@ class Prover {
         least = std::min(least, lowest);
         least = std::min(least, dip(double(best) / n, 1.0 / n));
         if (single() && std::abs(c.at - double(best) / n) > 1.0 / n) least = std::min(least, dip(c.at, 1.0 / n));
-        double exactly = theta_ == 0 && single() ? 1 - 1e-7 : 0.98;
-        for (double share : {exactly, 0.95, 0.95, 0.8, 0.4, 0.1}) {
+        for (double share : {0.98, 0.95, 0.95, 0.8, 0.4, 0.1}) {
             if (!(share * least > 64 * blur_)) return;
             Cover again = cover(0, 1, share * least, nullptr);
             if (effort_.spent()) return;
@@ -490,6 +503,20 @@ class Prover {
             }
             least = std::min(least, dip(again.until, 1.0 / n));
         }
+    }
+    template <class T> bool swept(Placed<T> P, Proof& p) {  // translation of one element: the swept hull's distance and plane
+        Points<T> both = P.at(0);
+        const auto& e = P.at(1);
+        both.insert(both.end(), e.begin(), e.end());
+        auto g = gjk<T>(both, P.b, P.b[0] - both[0], P.reach, 1e-9);
+        if (g.status != Status::Apart) return false;
+        auto n = g.v * (T(1) / norm(g.v));
+        double gap = double(dot(n, P.b[support(P.b, -n)]) - dot(n, both[support(both, n)])) - P.blur();
+        if (!(gap > 1e3 * P.blur())) return false;
+        p.gap = gap * (1 - 1e-9);
+        p.tree = {};
+        p.tree.nodes.push_back({{{1.0, 'W', wide(n)}}});
+        return true;
     }
     double dip(double t, double width) {  // least distance near t, by golden section
         const double r = 0.6180339887498949;

@@ -38,25 +38,31 @@ class Solid {
         return std::nullopt;
     }
 
-    // Distance from an inner point y (body frame) to the surface; of pieces, to that of the piece in which it is deepest.
-    double room(vec<dd> y) const {
+    // Distance from an inner point y (body frame) to the surface, and the unit vector away from it; of pieces, to that of the
+    // piece in which it is deepest.
+    double room(vec<dd> y, vec<double>& away) const {
+        away = {};
         if (mesh) {
             double best = 1e300;
-            nearest(0, y, best);
+            nearest(0, y, best, away);
             return best;
         }
         double best = 0;
-        for (size_t i = 0; i < elements.size(); ++i) best = std::max(best, depth_in(i, y));
+        for (size_t i = 0; i < elements.size(); ++i) {
+            vec<double> out;
+            double d = depth_in(i, y, out);
+            if (d > best) best = d, away = out;
+        }
         return best;
     }
 
   private:
-    void nearest(int id, vec<dd> y, double& best) const {
+    void nearest(int id, vec<dd> y, double& best, vec<double>& away) const {
         auto& n = nodes[id];
         if (std::hypot(double(y.x) - n.centre[0], double(y.y) - n.centre[1], double(y.z) - n.centre[2]) - n.radius >= best) return;
         if (n.left >= 0) {
-            nearest(n.left, y, best);
-            nearest(n.right, y, best);
+            nearest(n.left, y, best, away);
+            nearest(n.right, y, best, away);
             return;
         }
         Gjk<double> g;  // the triangle's point closest to y
@@ -66,17 +72,18 @@ class Solid {
         }
         g.n = 3;
         detail::point3(g);
-        best = std::min(best, norm(g.v));
+        double d = norm(g.v);
+        if (d < best) best = d, away = d > 0 ? g.v * (-1 / d) : vec<double>{};
     }
     // Least distance of y from the hull's supporting planes, over the directions in which the hull is thin about y: an estimate.
-    double depth_in(size_t i, vec<dd> y) const {
+    double depth_in(size_t i, vec<dd> y, vec<double>& away) const {
         Points<double> p, o(1, vec<double>{});
         for (auto& v : elements[i]) {
             vec<dd> w = vec<dd>{dd(v[0]), dd(v[1]), dd(v[2])} - y;
             p.push_back({double(w.x), double(w.y), double(w.z)});
         }
         Effort free{0, 1e300};
-        return depth(o, p, largest(p), free);
+        return depth(o, p, largest(p), free, &away);
     }
     void finish() {
         order.resize(elements.size());

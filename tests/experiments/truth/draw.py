@@ -62,6 +62,13 @@ def scaled(q: Query, power: int) -> Query:
     return Query(q.question, a, b, pose_a, pose_b, Motion(q.motion.displacement * f, q.motion.axis, q.motion.angle))
 
 
+def reversed_in_time(q: Query) -> Query:
+    """The motion run backwards from its end pose (rounded to double where it turns)."""
+    m = q.motion
+    end = m.pose_at(q.pose_a, 1.0)
+    return replace(q, pose_a=Pose(end.quaternion, end.position), motion=Motion(-m.displacement, m.axis, -m.angle))
+
+
 def composite_query(rng, question: str) -> Query:
     """Unions, closed concave meshes and hulls against each other, near enough to hit about as often as not."""
     def body():

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from experiments.truth import check, label
+from experiments.truth import check, check_many, label
+from experiments.truth.attack import campaign
 
 from .draw import convex_query
 
@@ -80,3 +81,25 @@ def test_a_witness_moved_out_of_its_tetrahedra_is_refused():
 def _float(x):
     p, _, q = str(x).partition("/")
     return float(x) if not isinstance(x, str) else int(p) / int(q or 1)
+
+
+def test_a_small_campaign_of_all_mutations_is_refused():
+    """The full one, thousands of each, is `python -m experiments.truth.attack`."""
+    names = ["feature_gap", "hooked_ls", "through_hole", "thin_wall", "concave_rotation", "linked_tori"]
+    counts, wrong = campaign(1, 5, names)
+    assert not wrong
+    assert sum(sum(c.values()) for c in counts.values()) > 400 and len(counts) >= 18
+
+
+def test_balls_alone_agree_with_the_doubles():
+    """On true certificates and on nearly true ones: gaps claimed a hair more or less than what is there."""
+    rng = np.random.default_rng(12)
+    asked = []
+    for question in ("overlap", "translation", "motion"):
+        for _ in range(12):
+            query = convex_query(rng, question)
+            truth = label(query)
+            asked.append((query, truth))
+            if truth.gap > 0:
+                asked += [(query, replace(truth, gap=truth.gap * (1 + x))) for x in (1e-12, 1e-9, 1e-3, 0.1)]
+    assert [c.ok for c in check_many(asked)] == [c.ok for c in check_many(asked, doubles=False)]

@@ -9,7 +9,7 @@ import trimesh
 from experiments.truth import check, label
 from ofg import Body, Motion, Pose, Query
 
-from .draw import composite_query, convex_query, moved_together, scaled, swapped
+from .draw import composite_query, convex_query, moved_together, reversed_in_time, scaled, swapped
 
 QUESTIONS = ("overlap", "translation", "motion")
 CUBE = Body.from_trimesh(trimesh.creation.box((2, 2, 2)), "cube")
@@ -58,6 +58,18 @@ def test_swapping_the_bodies_changes_no_verdict(question):
         assert (one.label, one.start, one.end) == (two.label, two.start, two.end)
         if one.label == "hit" and question == "translation":
             assert one.t_lo <= two.t_hi and two.t_lo <= one.t_hi
+
+
+@pytest.mark.parametrize("question", ("translation", "motion"))
+@pytest.mark.parametrize("draw", (convex_query, composite_query))
+def test_running_backwards_exchanges_start_and_end(question, draw):
+    rng = np.random.default_rng(6)
+    for _ in range(15):
+        query = draw(rng, question)
+        one, two = label(query), label(reversed_in_time(query))
+        assert (one.label, one.start, one.end) == (two.label, two.end, two.start)
+        if one.label == "clear":
+            assert np.isclose(one.gap, two.gap, rtol=0.1)
 
 
 def test_cubes_face_to_face():
