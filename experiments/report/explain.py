@@ -14,6 +14,7 @@ import tempfile
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -159,7 +160,7 @@ def _body(row: dict) -> Body:
     row = {"name": row["body"], "faces": [], **row}
     if row["kind"] == "convex" and not row["faces"]:
         return Body.convex(np.reshape(row["vertices"], (-1, 3)), row["name"])
-    return body_of(pd.Series(row))
+    return body_of(SimpleNamespace(**row))
 
 
 def _pose(row: dict, side: str) -> Pose:

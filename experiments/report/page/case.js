@@ -104,7 +104,7 @@ function proofWords(i, g, { plane, point }, t) {
 function timeMarks(i, label, method) {
   const c = D.cases, marks = [];
   if (c.label[i] === "hit" && c.t_hi[i] !== null) marks.push([c.t_hi[i], "truth", "certified impact"]);
-  for (const [l, kind] of [[method, "said"], [label, "said"]]) {
+  for (const [l, kind] of [[method, "told"], [label, "told"]]) {
     const m = D.method.get(l), t = m === undefined ? undefined : D.time[m].get(i);
     if (t !== undefined && !marks.some(([x, , w]) => w === l)) marks.push([t, kind, l]);
   }
