@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import partial
+from time import perf_counter
 
 import pandas as pd
 
@@ -12,13 +13,15 @@ from baselines.contract import MissingEngine, Unsupported
 
 from .case import Case
 from .config import RunConfig, load_files
-from .pool import Task, limit, run
+from .pool import Task, limit, mixed, run
 from .progress import stage
 from .rows import cases_of
 from .store import Store
 
 CHUNK = 256  # cases asked in one process: bounds what a leaking engine can hold
 COLUMNS = ["case", "method", "status", "hit", "time", "detail"]
+PACE = ["build_s", "query_s"]  # seconds, on a busy machine: good to plan the rest of the run by, and for nothing else
+PACES = ("parts", "pace.parquet")
 
 
 def ask(store: Store, config: RunConfig, workers: int) -> None:
@@ -34,15 +37,17 @@ def ask(store: Store, config: RunConfig, workers: int) -> None:
             names.append(("parts", "observations", f"{m:03d}-{i:05d}.parquet"))
             if not store.has(*names[-1]):
                 tasks.append(_task(store, config, method, chunk, names[-1]))
-    with stage("ask methods", len(cases) * len(methods)) as advance:
-        advance(len(cases) * len(methods) - sum(len(t.items) for t in tasks))
-        run(tasks, workers, config.build_seconds + config.query_seconds, store.path("workers.log"), advance, partial(load_files, config))
-    store.write(pd.concat([store.read(*name) for name in names], ignore_index=True), "observations.parquet")
+    total = len(cases) * len(methods)
+    with stage("ask methods", total, total - sum(len(t.items) for t in tasks)) as advance:
+        run(mixed(tasks), workers, config.build_seconds + config.query_seconds, store.path("workers.log"), advance, partial(load_files, config))
+    rows = pd.concat([store.read(*name) for name in names], ignore_index=True)
+    store.write(rows[["case", "method", *PACE]], *PACES)
+    store.write(rows[COLUMNS], "observations.parquet")
 
 
 def _task(store: Store, config: RunConfig, method, chunk: list[Case], name) -> Task:
     def done(rows):
-        frame = pd.DataFrame(rows, columns=COLUMNS).astype({"hit": "boolean"})
+        frame = pd.DataFrame(rows, columns=COLUMNS + PACE).astype({"hit": "boolean"})
         store.write(frame, *name)
 
     def lost(case, status, detail):
@@ -66,10 +71,13 @@ def _open(argument: tuple[str, RunConfig]):
 def answer(method, case: Case, config: RunConfig) -> dict:
     """The observation row of one method at one case. An exception of the engine is its answer: status `error`."""
     try:
+        start = perf_counter()
         with limit(config.build_seconds):
             ask_it = method.prepare(case.query)
+        built = perf_counter()
         with limit(config.query_seconds):
             verdict = ask_it()
+        pace = {"build_s": built - start, "query_s": perf_counter() - built}
     except Unsupported as refusal:
         return _row(case, method.label, "unsupported", detail=str(refusal))
     except MissingEngine as missing:
@@ -79,7 +87,7 @@ def answer(method, case: Case, config: RunConfig) -> dict:
     time = float(verdict.time)
     if not math.isnan(time) and not 0 <= time <= 1:
         return _row(case, method.label, "error", detail=f"time of impact {time!r} is outside the step [0, 1]")
-    return _row(case, method.label, "ok", bool(verdict.hit), time if verdict.hit else math.nan)
+    return {**_row(case, method.label, "ok", bool(verdict.hit), time if verdict.hit else math.nan), **pace}
 
 
 def _row(case: Case, method: str, status: str, hit=None, time=math.nan, detail="") -> dict:

@@ -38,6 +38,7 @@ class TimingChoice(_Strict):
     cases: int = Field(default=24, ge=0, description="cases timed in each bin of question, size and situation")
     rounds: int = Field(default=9, ge=3, description="how often each case is timed by each method")
     warmup: int = Field(default=2, ge=0, description="rounds thrown away first")
+    seconds: float = Field(default=4.0, gt=0, description="a method that takes longer for its rounds of a bin takes part in fewer, at least 3")
     reference: str = Field(default="", description="method that ratios are taken to [the run's first]")
 
 

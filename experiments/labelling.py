@@ -10,14 +10,14 @@ import pandas as pd
 from . import scenarios
 from .case import Case
 from .config import RunConfig, load_files
-from .pool import Task, run
+from .pool import Task, mixed, run
 from .progress import stage
 from .rows import body_row, case_row
 from .store import Store
 from .truth.label import Truth
 
 REDRAWS = 50
-CHUNK = 64  # cases labelled by one process
+CHUNK = 16  # cases labelled by one process
 
 
 @dataclass(frozen=True)
@@ -58,9 +58,8 @@ def make_cases(store: Store, config: RunConfig, workers: int) -> None:
 
     tasks = [Task(_open, config.seed, chunk, keep(i), lambda slot, status, detail: _lost(config.seed, slot, detail))
              for i, chunk in enumerate(chunks) if not store.has(*names[i])]
-    with stage("certify cases", len(all_slots)) as advance:
-        advance(len(all_slots) - sum(len(t.items) for t in tasks))
-        run(tasks, workers, config.label_seconds, store.path("workers.log"), advance, partial(load_files, config))
+    with stage("certify cases", len(all_slots), len(all_slots) - sum(len(t.items) for t in tasks)) as advance:
+        run(mixed(tasks), workers, config.label_seconds, store.path("workers.log"), advance, partial(load_files, config))
     cases = pd.concat([store.read(*name) for name in names], ignore_index=True)
     found = pd.concat([store.read(*name) for name in bodies], ignore_index=True).drop_duplicates("body", ignore_index=True)
     store.write(found, "bodies.parquet")

@@ -114,16 +114,36 @@ def paired_ratios(store: Store, reference: str) -> pd.DataFrame:
     Cases at which the reference's own net time is not above its floor have no ratio and are left out; `pairs` counts the rest.
     """
     bins = ["question", "faces", "situation"]
+    return ratios(case_costs(store), reference, bins)
+
+
+def case_costs(store: Store) -> pd.DataFrame:
+    """A row per timed case and method: ns (median over rounds), floor of its bin, net = ns - floor or 0, build_ns."""
+    bins = ["question", "faces", "situation"]
     times = _timed(store)
     floors = times[times.case == FLOOR].groupby([*bins, "method"]).ns.median().rename("floor")
-    times = times[times.case != FLOOR].join(floors, on=[*bins, "method"]).assign(net=lambda t: (t.ns - t.floor).clip(lower=0))
-    base = times[(times.method == reference) & (times.net > 0)][[*bins, "case", "net"]]
+    return times[times.case != FLOOR].join(floors, on=[*bins, "method"]).assign(net=lambda t: (t.ns - t.floor).clip(lower=0))
+
+
+def medians(values: pd.DataFrame, column: str, by: list[str]) -> pd.DataFrame:
+    """Median of `column` per group of `by`, its 95 % bootstrap interval (low, high) and the number of cases."""
     rows = []
-    for key, group in times.merge(base, on=[*bins, "case"], suffixes=("", "_reference")).groupby([*bins, "method"], sort=False):
+    for key, group in values.groupby(by, sort=False):
+        found = group[column].to_numpy()
+        low, high = _bootstrap(found)
+        rows.append({**dict(zip(by, key)), "median": float(np.median(found)), "low": low, "high": high, "cases": len(found)})
+    return pd.DataFrame(rows, columns=[*by, "median", "low", "high", "cases"])
+
+
+def ratios(times: pd.DataFrame, reference: str, by: list[str]) -> pd.DataFrame:
+    """`paired_ratios` of rows of case_costs, for each group of `by` and method."""
+    base = times[(times.method == reference) & (times.net > 0)][["case", "net"]]
+    rows = []
+    for key, group in times.merge(base, on="case", suffixes=("", "_reference")).groupby([*by, "method"], sort=False):
         ratio = (group.net / group.net_reference).to_numpy()
         low, high = _bootstrap(ratio)
-        rows.append({**dict(zip([*bins, "method"], key)), "ratio": np.median(ratio), "low": low, "high": high, "pairs": len(ratio)})
-    return pd.DataFrame(rows, columns=[*bins, "method", "ratio", "low", "high", "pairs"])
+        rows.append({**dict(zip([*by, "method"], key)), "ratio": np.median(ratio), "low": low, "high": high, "pairs": len(ratio)})
+    return pd.DataFrame(rows, columns=[*by, "method", "ratio", "low", "high", "pairs"])
 
 
 def _timed(store: Store) -> pd.DataFrame:

@@ -1,20 +1,122 @@
-"""How far a stage is and how long it will take; nothing when the output is not a terminal."""
+"""How far a run is and how long it will take: a bar per stage on a terminal, a line now and then elsewhere."""
 
 from __future__ import annotations
 
 import contextlib
+import time
 from typing import Callable, Iterator
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, TextColumn, TimeElapsedColumn
+from rich.text import Text
 
 console = Console(stderr=True)
+LINE = 60.0  # seconds between lines where there is no terminal
+
+
+class Forecast:
+    """Seconds left of a run of several stages, from what was planned for each and how fast the work has gone so far.
+
+    plan: stage -> seconds that its work is expected to take. A stage that knows better when it begins says so. What is measured
+    takes the place of the plan as the stage goes on; the stages to come are scaled by how far off the plan was in those before.
+    """
+
+    def __init__(self, plan: dict[str, float], clock: Callable[[], float] = time.monotonic):
+        self.plan, self.clock = dict(plan), clock
+        self.done = {name: 0.0 for name in plan}  # share of each stage
+        self.spent = {name: 0.0 for name in plan}
+        self.current, self.since, self.skipped = None, 0.0, 0.0
+        self.history: list[tuple[float, float]] = []  # seconds gone, seconds said to be left
+
+    def begin(self, name: str, seconds: float | None = None, skipped: float = 0.0) -> None:
+        """skipped: the share that an earlier, interrupted run has done."""
+        self.plan[name] = self.plan.get(name, 0.0) if seconds is None else seconds
+        self.done[name], self.spent[name] = skipped, 0.0
+        self.current, self.since, self.skipped = name, self.clock(), skipped
+
+    def advance(self, share: float) -> None:
+        self.done[self.current] = min(1.0, self.done[self.current] + share)
+        self.spent[self.current] = self.clock() - self.since
+        self.history.append((sum(self.spent.values()), self.left()))
+
+    def end(self) -> None:
+        self.done[self.current], self.spent[self.current] = 1.0, self.clock() - self.since
+        self.current = None
+
+    def left(self) -> float:
+        total = 0.0
+        for name, planned in self.plan.items():
+            todo = 1.0 - self.done[name]
+            if name == self.current:
+                since_told = self.clock() - self.since - self.spent[name]
+                total += max(0.0, todo * self._pace(planned) - since_told)
+            elif todo:
+                total += todo * planned
+        return total
+
+    def _pace(self, planned: float) -> float:
+        """Seconds for the whole current stage: the plan at its beginning, what was measured once a tenth of it is done."""
+        gone = self.done[self.current] - self.skipped
+        if gone <= 0:
+            return planned
+        trust = min(1.0, gone / 0.1)
+        return trust * self.spent[self.current] / gone + (1 - trust) * planned
+
+    def at_half(self) -> tuple[float, float] | None:
+        """What was said to be left in the middle of the time that the run took, and what was; None for a run of a moment."""
+        gone = sum(self.spent.values())
+        said = [(at, left) for at, left in self.history if at >= gone / 2]
+        return (said[0][1], gone - said[0][0]) if said and gone > 1 else None
+
+
+class _Left(ProgressColumn):
+    def __init__(self, forecast: Forecast):
+        super().__init__()
+        self.forecast = forecast
+
+    def render(self, task) -> Text:
+        return Text("" if task.finished else f"run: {spoken(self.forecast.left())} left", style="cyan")
+
+
+_running: Forecast | None = None
 
 
 @contextlib.contextmanager
-def stage(title: str, total: int) -> Iterator[Callable[[int], None]]:
-    """Yields advance(n). One bar per stage, kept when it is full."""
-    columns = (TextColumn("{task.description:<22}"), BarColumn(28), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("left"), TimeRemainingColumn())
+def forecast(plan: dict[str, float]) -> Iterator[Forecast]:
+    """The stages inside are those of one run, whose time left is shown beside each."""
+    global _running
+    before, _running = _running, Forecast(plan)
+    try:
+        yield _running
+    finally:
+        _running = before
+
+
+@contextlib.contextmanager
+def stage(title: str, total: float, done: float = 0.0, seconds: float | None = None) -> Iterator[Callable[[float], None]]:
+    """Yields advance(n), n of `total`. done: what was there already. seconds: what the stage is expected to take, where it knows."""
+    whole = _running or Forecast({title: seconds or 0.0})
+    whole.begin(title, seconds, done / total if total else 1.0)
+    columns = (TextColumn("{task.description:<22}"), BarColumn(28), MofNCompleteColumn(), TimeElapsedColumn(), _Left(whole))
+    last = whole.clock()
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
-        bar = progress.add_task(title, total=total)
-        yield lambda n: progress.advance(bar, n)
+        bar = progress.add_task(title, total=total, completed=done)
+
+        def advance(n: float) -> None:
+            nonlocal last
+            progress.advance(bar, n)
+            whole.advance(n / total)
+            if not console.is_terminal and whole.clock() - last >= LINE:
+                last = whole.clock()
+                console.print(f"{title}: {100 * whole.done[title]:.0f} %; run: {spoken(whole.left())} left", highlight=False)
+
+        yield advance
+    whole.end()
+
+
+def spoken(seconds: float) -> str:
+    """'35 s', '12 min', '1 h 20 min'."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    minutes = round(seconds / 60)
+    return f"{minutes} min" if minutes < 60 else f"{minutes // 60} h {minutes % 60} min"

@@ -9,16 +9,23 @@ from pathlib import Path
 
 from baselines import registry
 
-from . import answering, figures, labelling, manifest, tables, timing
+from . import answering, figures, labelling, manifest, progress, tables, timing
 from .config import ConfigError, RunConfig, load_files
 from .report import report as html_report
+from .stepping import experiment as stepping
 from .store import Store
+
+
+LABEL_SECONDS, ASK_SECONDS, CALL_SECONDS = 0.05, 0.002, 0.0003  # one case, one case of one method, one timed call
 
 
 def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missing: bool = False) -> list[tables.Table]:
     """Run `config` in `folder`, or finish what was begun there; returns its tables. Raises ConfigError, StoreError, or ValueError for bad names."""
     load_files(config)
     labelling.slots(config)
+    tables.check(config)
+    if config.stepping:
+        stepping.check(config.stepping)
     absent = missing(config)
     if absent and not skip_missing:
         raise ConfigError("An engine that this run asks for is not installed. " + " ".join(absent) + " Or leave its rows "
@@ -28,23 +35,42 @@ def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missin
     if not store.has("manifest.json"):
         note(store, started=manifest.now(), commit=manifest.commit(), versions=manifest.versions(config), before=manifest.machine())
     workers = workers or os.cpu_count() or 1
-    labelling.make_cases(store, config, workers)
-    answering.ask(store, config, workers)
-    timing.measure(store, config)
-    note(store, finished=manifest.now(), after=manifest.machine(), workers=workers)
+    if config.stepping:
+        stepping.measure(store, config)
+        note(store, finished=manifest.now(), after=manifest.machine())
+    else:
+        with progress.forecast(plan(config, workers)) as forecast:
+            labelling.make_cases(store, config, workers)
+            answering.ask(store, config, workers)
+            timing.measure(store, config)
+        note(store, finished=manifest.now(), after=manifest.machine(), workers=workers, halfway=halfway(forecast))
     made = report(store)
     shutil.rmtree(store.folder / "parts", ignore_errors=True)
     return made
 
 
 def report(store: Store) -> list[tables.Table]:
-    """Write tables/, figures/ and report.html from the rows of the run."""
+    """Write tables/, figures/ and report.html from the rows of the run (figures and report not of the stepping track)."""
     made = list(tables.build(store))
     tables.save(store, made)
     if store.has("timings.parquet"):
         figures.accuracy_speed(store)
-    html_report(store)
+    if store.has("observations.parquet"):
+        html_report(store)
     return made
+
+
+def plan(config: RunConfig, workers: int) -> dict[str, float]:
+    """Seconds that each stage will take, before anything is known: roughly what the presets took per case on one machine."""
+    cases, methods = len(labelling.slots(config)), sum(len(registry.make(spec)) for spec in config.asked)
+    timed = min(cases, 7 * config.timing.cases) * methods * (config.timing.rounds + config.timing.warmup)
+    return {"certify cases": LABEL_SECONDS * cases / workers, "ask methods": ASK_SECONDS * cases * methods / workers, "time methods": CALL_SECONDS * timed}
+
+
+def halfway(forecast: progress.Forecast) -> dict | None:
+    """For the manifest: what was said to be left in the middle of the run, and what was."""
+    found = forecast.at_half()
+    return found and {"said_left": round(found[0], 1), "was_left": round(found[1], 1)}
 
 
 def missing(config: RunConfig) -> list[str]:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Iterator
 
 import numpy as np
 import pandas as pd
+from tabulate import tabulate
 
 from baselines import registry
 from ofg import QUESTIONS
 
 from . import metrics, scenarios
+from .config import ConfigError, RunConfig, TableChoice, closest
 from .store import Store
-from .timing import SIZES
+from .timing import SIZES, situation_of, size_of
 
 BANDS = (1e-2, 1e-4, 1e-7)  # of |gap| / size, that tables are split by
 
@@ -31,11 +33,22 @@ class Table:
     text: pd.DataFrame
     headline: bool = False
     optional: tuple[str, ...] = ()
+    choice: TableChoice | None = None  #: of a table that the configuration asked for
 
 
 def build(store: Store) -> Iterator[Table]:
-    """Every table of the run that has rows, in reading order."""
+    """Every table of the run that has rows, in reading order: first those that its configuration asks for."""
+    if store.config.stepping:
+        yield from stepping_tables(store)
+        return
     found = metrics.outcomes(store)
+    particular = [chosen_table(store, found, choice) for choice in store.config.tables]
+    yield from (table for table in particular if len(table.text))
+    yield from (replace(table, headline=table.headline and not particular) for table in general(store, found))
+
+
+def general(store: Store, found: pd.DataFrame) -> Iterator[Table]:
+    """The tables that every run has."""
     makers = [truth_table(store), method_table(store, found)]
     for question in found.question.unique():
         part = found[(found.question == question) & (found.detail != f"does not answer {question}")]
@@ -54,11 +67,141 @@ def save(store: Store, tables: list[Table]) -> None:
     for table in tables:
         store.write_text(table.numbers.to_csv(index=False, float_format="%.9g", lineterminator="\n"), "tables", f"{table.name}.csv")
         store.write_text(markdown(table), "tables", f"{table.name}.md")
+        store.write_text(latex(table), "tables", f"{table.name}.tex")
+
+
+def latex(table: Table) -> str:
+    """A table environment for the booktabs package. Wide ones are for the reader to turn or to shrink."""
+    align = ["left"] + ["right"] * (table.text.shape[1] - 1)
+    body = tabulate(table.text, headers=[str(c).strip() for c in table.text.columns], showindex=False, tablefmt="latex_booktabs", colalign=align, disable_numparse=True)
+    return f"\\begin{{table}}\n\\caption{{{_tex(table.title)} {_tex(table.caption)}}}\n\\label{{tab:{table.name}}}\n\\centering\n{body}\n\\end{{table}}\n"
+
+
+def _tex(text: str) -> str:
+    """Text as LaTeX prints it; tabulate does the same for cells."""
+    special = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\ensuremath{<}", ">": r"\ensuremath{>}",
+               **{c: "\\" + c for c in "&%$#_{}"}}
+    return "".join(special.get(c, c) for c in text)
 
 
 def markdown(table: Table) -> str:
     align = ["left"] + ["right"] * (table.text.shape[1] - 1)
     return f"**{table.title}** {table.caption}\n\n{table.text.to_markdown(index=False, colalign=align, disable_numparse=True)}\n"
+
+
+COLUMNS = ("level", "scenario", "question", "situation", "faces", "band")
+COUNTS = {  # value of a table -> columns of metrics.rates, name of its interval, and what it says
+    "misses": ("misses", "hits", "miss", "Certified hits answered clear, of those answered."),
+    "false alarms": ("false_alarms", "clears", "alarm", "Certified clears answered hit, of those answered, beyond the method's documented margin."),
+    "wrong": ("wrong", "judged", "wrong", "Misses and false alarms, of the certified cases answered."),
+    "tunnelled": ("tunnelled", "can_tunnel", "tunnel", "Misses, of the certified hits answered whose start and end are both clear."),
+    "answered": ("answered", "asked", "answered", "Cases answered, of those asked.")}
+CLOCKED = ("net time", "gross time", "build time", "ratio")
+
+
+def check(config: RunConfig) -> None:
+    """ConfigError for a table that names what the run does not have."""
+    families = {c.name: scenarios.get(c.name) for c in config.scenarios}
+    for choice in config.tables:
+        where = f"The table '{choice.name}'"
+        for name in choice.scenarios:
+            if name not in families:
+                raise ConfigError(f"{where}: its scenario '{name}' is not one of the run{closest(name, families)}; the run has {', '.join(families)}.")
+        if choice.question not in ("", *QUESTIONS):
+            raise ConfigError(f"{where}: there is no question '{choice.question}'; the questions are {', '.join(QUESTIONS)}.")
+        if choice.value in CLOCKED and not config.timing.cases:
+            raise ConfigError(f"{where}: '{choice.value}' needs times; set timing.cases to more than 0.")
+        tags = {t for n in choice.scenarios or families for t in families[n].case(config.seed, families[n].levels[0], 0).tags}
+        if choice.columns not in (*COLUMNS, *tags):
+            raise ConfigError(f"{where}: columns = '{choice.columns}' is neither one of {', '.join(COLUMNS)} nor a tag of its scenarios "
+                              f"({', '.join(sorted(tags)) or 'which have none'}).")
+
+
+def chosen_table(store: Store, found: pd.DataFrame, choice: TableChoice) -> Table:
+    """A table that the configuration asks for: a row per method, a column per value of choice.columns."""
+    part = found[found.scenario.isin(choice.scenarios or set(found.scenario)) & found.question.isin([choice.question] if choice.question else QUESTIONS)]
+    column, order = _column(part, choice.columns)
+    part = part.assign(column=column).dropna(subset=["column"])
+    part = part[~part.detail.str.startswith("does not answer", na=False)]
+    if choice.value in COUNTS:
+        numbers, cell, note = _counted(part, choice.value)
+    elif choice.value in CLOCKED:
+        numbers, cell, note = _clocked(store, part, choice.value)
+    else:
+        numbers, cell, note = _off(part, choice.value)
+    numbers = numbers.rename(columns={"column": choice.columns})
+    text = _pivot(numbers, choice.columns, cell, order)
+    return Table(choice.name, choice.title, " ".join(filter(None, [choice.note, note])), numbers, text, choice.headline, choice=choice)
+
+
+def _column(part: pd.DataFrame, name: str) -> tuple[pd.Series, list[str]]:
+    """The column of each row, and the columns in their order."""
+    if name == "band":
+        return gap_bands(part.relative_gap)
+    if name == "faces":
+        return size_of(part.faces), [title for _, title in SIZES]
+    if name == "situation":
+        return situation_of(part), ["deep", "near", "apart", "hit", "clear"]
+    values = part[name] if name in COLUMNS else part.tags.map({text: json.loads(text).get(name) for text in part.tags.unique()})
+    found = values.dropna().unique()
+    if all(isinstance(v, (int, float, np.number)) for v in found):
+        return values.map(lambda v: f"{v:g}", na_action="ignore"), [f"{v:g}" for v in sorted(found)]
+    return values, list(found) if name in ("scenario", "question") else sorted(found)
+
+
+def _counted(part: pd.DataFrame, value: str):
+    count, total, interval, note = COUNTS[value]
+    counts = metrics.rates(part, ["method", "column"])
+    counts["wrong"], counts["judged"] = counts.misses + counts.false_alarms, counts.hits + counts.clears
+    if f"{interval}_low" not in counts:
+        bounds = [metrics.wilson(c, t) for c, t in zip(counts[count], counts[total])]
+        counts[f"{interval}_low"], counts[f"{interval}_high"] = zip(*bounds) if bounds else ((), ())
+    numbers = counts[["method", "column", *dict.fromkeys([count, total, f"{interval}_low", f"{interval}_high", "asked", "answered", "uncertain", "conservative"])]]
+    return numbers, lambda r: _of(getattr(r, count), getattr(r, total)), f"{note} 95 % Wilson intervals in the CSV."
+
+
+def _clocked(store: Store, part: pd.DataFrame, value: str):
+    times = metrics.case_costs(store).merge(part[["case", "method", "column"]], on=["case", "method"])
+    noise = metrics.noise(store)
+    state = f"Noise probe: 90th percentile {100 * noise:.0f} % above its median" + (": THIS RUN WAS DISTURBED." if noise > 0.25 else ".")
+    if value == "ratio":
+        reference = _reference(store.config)
+        note = f"Net time over that of {reference}: median of the ratios case by case, 95 % bootstrap interval. Above 1: slower. {state}"
+        return metrics.ratios(times, reference, ["column"]), lambda r: f"{r.ratio:.2g} [{r.low:.2g}, {r.high:.2g}]", note
+    column, what = {"net time": ("net", "Microseconds per query from Python, less the method's floor; medians over cases"),
+                    "gross time": ("ns", "Microseconds per query from Python, floor included; medians over cases"),
+                    "build time": ("build_ns", "Microseconds to build for a query (a body that was built before is mostly kept); medians over cases")}[value]
+    return metrics.medians(times, column, ["method", "column"]), lambda r: _microseconds(r.median), f"{what}; 95 % bootstrap intervals in the CSV. {state}"
+
+
+def _off(part: pd.DataFrame, value: str):
+    if value == "time error":
+        sized = part[part.error.notna()].assign(size_of_error=lambda t: t.error.abs())
+        note = "Beyond the certified bracket, as a share of the step, where both say hit; 95 % bootstrap intervals in the CSV."
+        return metrics.medians(sized, "size_of_error", ["method", "column"]), lambda r: f"{r.median:.1e}" if r.median else "0", note
+    errors = metrics.times_of_impact(part, ["method", "column"])
+    worst = "worst_late" if value == "latest" else "worst_early"
+    return errors, lambda r: f"{getattr(r, worst):.1e}" if getattr(r, worst) else "0", "Worst error beyond the certified bracket, as a share of the step, where both say hit."
+
+
+def stepping_tables(store: Store) -> Iterator[Table]:
+    """A table per scene: what got past, by thicknesses per step."""
+    rows = store.read("stepping.parquet")
+    told = rows[rows.tunnelled.notna()]
+    for scene, part in told.groupby("scene", sort=False):
+        part = part.assign(travelled=[f"{t:g}" for t in part.travel])
+        text = part.assign(cell=[_of(r.tunnelled, r.runs) for r in part.itertuples()]).pivot(index="contestant", columns="travelled", values="cell")
+        text = text.reindex(index=part.contestant.unique(), columns=part.travelled.unique()).rename_axis(columns=None)
+        text["us/step"] = part.groupby("contestant").us_per_step.median().map(lambda v: f"{v:.1f}")
+        yield Table(f"stepping-{scene.replace(' ', '-')}", f"Got past: {scene}.", "Tunnelled of the runs, by thicknesses travelled per step; each run has its own start phase. 95 % "
+                    "Wilson intervals in the CSV. us/step: median time of a step.", part.drop(columns=["travelled", "detail"]), text.reset_index(), True)
+    lost = rows[rows.tunnelled.isna()][["scene", "contestant", "detail"]]
+    if len(lost):
+        yield Table("unanswered", "What did not run, and why.", "None of these is counted as tunnelled.", lost, lost.astype(str))
+
+
+def _reference(config: RunConfig) -> str:
+    return config.timing.reference or registry.make(config.asked[0])[0].label
 
 
 def truth_table(store: Store) -> Table:
@@ -164,8 +307,7 @@ def cost_tables(store: Store) -> Iterator[Table]:
         yield Table(f"cost-{question}", f"Time, {question}.", note, part, _by_faces(part, lambda r: _cost(r.net, r.gross)), headline=True)
     for (question, situation), part in metrics.costs(store).groupby(["question", "situation"], sort=False):
         yield Table(f"cost-{question}-{situation}", f"Time, {question}, {situation}.", note, part, _by_faces(part, lambda r: _cost(r.net, r.gross)))
-    config = store.config
-    reference = config.timing.reference or registry.make(config.methods[0])[0].label
+    reference = _reference(store.config)
     for (question, situation), part in metrics.paired_ratios(store, reference).groupby(["question", "situation"], sort=False):
         yield Table(f"ratio-{question}-{situation}", f"Net time over that of {reference}, {question}, {situation}.", "Median of the ratios case by case on the cases both "
                     f"answered, 95 % bootstrap interval. Above 1: slower. {state}", part, _by_faces(part, lambda r: f"{r.ratio:.2g} [{r.low:.2g}, {r.high:.2g}]"))

@@ -8,6 +8,7 @@ out slower than k = 8 behind it). Taking turns call by call was left out, becaus
 full of another engine. The floor of a method is its own cheapest call (of n substeps: one) on two tetrahedra far apart, timed
 between its cases: what the binding and an early way out cost. A net time of n substeps therefore still holds the binding's
 cost of n - 1 calls.
+A method that takes longer than `seconds` for its rounds of a bin takes part in fewer of them, spread evenly, but in no fewer than 3.
 Only cases that a method answered (status ok) are timed; building (`prepare`) is timed once per case.
 """
 
@@ -26,6 +27,7 @@ import pandas as pd
 from baselines import registry
 from ofg import Body, Motion, Pose, Query
 
+from .answering import PACES
 from .case import Case
 from .config import RunConfig, TimingChoice, load_files
 from .pool import Task, run
@@ -35,6 +37,8 @@ from .store import Store
 
 SIZES = ((0, "to 24"), (25, "25-150"), (151, "151-700"), (701, "over 700"))  # least number of faces, name
 NEAR = 1e-2  # of gap over size: what lies closer to touching is timed apart from the rest
+LEAST_ROUNDS = 3
+START = 2.0  # seconds: a process that imports every engine
 COLUMNS = ["question", "faces", "situation", "method", "case", "build_ns", "rounds_ns"]
 PROBE = "(noise probe)"
 FLOOR = "(floor)"
@@ -58,11 +62,13 @@ def measure(store: Store, config: RunConfig) -> None:
         return
     bins = choose(store, config)
     names = [("parts", "timings", f"{i:03d}.parquet") for i in range(len(bins))]
-    tasks = [_task(store, bin_, config.timing, name) for bin_, name in zip(bins, names) if not store.has(*name)]
-    with stage("time methods", len(bins)) as advance:
-        advance(len(bins) - len(tasks))
-        # one worker: nothing else of ours runs while times are taken
-        run(tasks, 1, max(600.0, config.query_seconds), store.path("workers.log"), advance, partial(load_files, config))
+    seconds = [max(1, round(s)) for s in expected(store, bins, config.timing)]
+    there = [store.has(*name) for name in names]
+    with stage("time methods", sum(seconds), sum(s for s, t in zip(seconds, there) if t), sum(seconds)) as advance:
+        for bin_, name, planned in ((b, n, s) for b, n, s, t in zip(bins, names, seconds, there) if not t):
+            # one worker: nothing else of ours runs while times are taken
+            run([_task(store, bin_, config.timing, name)], 1, max(600.0, 20.0 * planned), store.path("workers.log"), prepare=partial(load_files, config))
+            advance(planned)
     parts = [store.read(*name) for name in names]
     store.write(pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=COLUMNS), "timings.parquet")
 
@@ -80,6 +86,24 @@ def choose(store: Store, config: RunConfig) -> list[Bin]:
         methods = {label: {c.id for c in chosen if label in answered.get(c.id, ())} for label in labels}
         bins.append(Bin(question, faces, situation, chosen, {k: v for k, v in methods.items() if v}))
     return bins
+
+
+def expected(store: Store, bins: list[Bin], timing: TimingChoice) -> list[float]:
+    """Seconds that each bin will take, from how long each method took to answer its cases once."""
+    pace = store.read(*PACES).set_index(["method", "case"])
+    seconds = []
+    for bin_ in bins:
+        total = START
+        for label, ids in bin_.methods.items():
+            once = pace.loc[[(label, i) for i in ids]].sum()
+            total += once.build_s + rounds_within(once.query_s, timing, timing.warmup) * once.query_s
+        seconds.append(total)
+    return seconds
+
+
+def rounds_within(once: float, timing: TimingChoice, warmup: int = 0) -> int:
+    """Rounds for a method whose cases of a bin take `once` seconds: all, or as many as fit, but never fewer than LEAST_ROUNDS."""
+    return min(timing.rounds, max(LEAST_ROUNDS, int(timing.seconds / max(once, 1e-9)))) + warmup
 
 
 def size_of(faces: pd.Series) -> pd.Series:
@@ -117,17 +141,28 @@ def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
     order = np.random.default_rng(0)
     gc.collect()
     gc.disable()
+    once = [0.0] * len(groups)
     for r in range(timing.warmup + timing.rounds):
-        for group in (groups[i] for i in order.permutation(len(groups))):
+        for i in order.permutation(len(groups)):
+            group, kept = groups[i], r - timing.warmup
+            if kept >= 0 and not _takes_part(kept, rounds_within(once[i], timing), timing.rounds):
+                continue
+            begin = perf_counter_ns()
             group[-1].ask()  # not timed: it meets caches full of another engine
             for call in group:
                 start = perf_counter_ns()
                 call.ask()
                 elapsed = perf_counter_ns() - start
-                if r >= timing.warmup:
+                if kept >= 0:
                     times[call].append(elapsed)
+            once[i] = (perf_counter_ns() - begin) / 1e9
     gc.enable()
     return [(bin_.question, bin_.faces, bin_.situation, c.method, c.case, c.build_ns, rounds) for c, rounds in times.items()]
+
+
+def _takes_part(r: int, wanted: int, rounds: int) -> bool:
+    """Whether a method that takes part in `wanted` of the rounds does so in round r: they are spread evenly."""
+    return (r + 1) * wanted // rounds > r * wanted // rounds
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,8 +10,6 @@ import typer
 from rich.console import Console
 from rich.progress import track as progress
 
-from baselines import registry
-
 from . import track
 from .scene import SCENES, TRAVELS
 
@@ -35,7 +33,7 @@ def main(
         raise typer.BadParameter(f"nothing to run: scenes are {', '.join(s.name for s in SCENES)}; contestants are "
                                  f"{', '.join(c.name for c in track.CONTESTANTS)}")
     console = Console()
-    absent = {c.name: reason for c in contestants if (reason := _absent(c))}
+    absent = {c.name: reason for c in contestants if (reason := track.absent(c))}
     for name, reason in absent.items():
         console.print(f"left out: {name}: {reason}")
     contestants = [c for c in contestants if c.name not in absent]
@@ -48,15 +46,6 @@ def main(
         out.mkdir(parents=True, exist_ok=True)
         rows.to_csv(out / "stepping.csv", index=False)
         (out / "stepping.md").write_text(text + "\n")
-
-
-def _absent(contestant: track.Contestant) -> str | None:
-    keywords = getattr(contestant.make, "keywords", {})
-    if "method" in keywords:
-        return registry.available(type(registry.make(keywords["method"])[0]))
-    make = getattr(contestant.make, "func", contestant.make)
-    return registry.available({"pybullet": registry.methods()["bullet"], "mujoco": registry.methods()["mujoco"],
-                               "rapier3d": registry.methods()["rapier"]}[make.engine])
 
 
 if __name__ == "__main__":

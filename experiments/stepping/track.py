@@ -14,6 +14,8 @@ import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
+from baselines import registry
+
 from .scene import SCENES, TRAVELS, Scene, turned
 from .worlds import BulletWorld, KinematicWorld, MujocoWorld, RapierWorld
 
@@ -93,6 +95,16 @@ def table(rows: pd.DataFrame, scene: str) -> pd.DataFrame:
     grid.columns = [f"{travel:g}" for travel in grid.columns]
     grid["us/step"] = part.groupby("contestant").us_per_step.median().round(1)
     return grid.reset_index()
+
+
+def absent(contestant: Contestant) -> str | None:
+    """None if the contestant's engine can be imported here, else the reason and the remedy."""
+    keywords = getattr(contestant.make, "keywords", {})
+    if "method" in keywords:
+        return registry.available(type(registry.make(keywords["method"])[0]))
+    make = getattr(contestant.make, "func", contestant.make)
+    return registry.available({"pybullet": registry.methods()["bullet"], "mujoco": registry.methods()["mujoco"],
+                               "rapier3d": registry.methods()["rapier"]}[make.engine])
 
 
 def _dt(contestant: Contestant) -> float:
