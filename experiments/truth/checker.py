@@ -13,7 +13,7 @@ from flint import arb
 
 from . import filter
 from .balls import BITS, add, ball, cross, dot, greatest, least, mul, norm, number, rational, transposed, vector
-from .geometry import Pair, elements, parts, points
+from .geometry import Pair, elements, parts, points, support
 
 
 class Check(NamedTuple):
@@ -133,16 +133,20 @@ def clear(pair, cert, start, end, gap):
     stack = [(cert["tree"], (0, na), (0, nb), start, True)]
     while stack:
         (segments, split), ra, rb, s, owing = stack.pop()
+        if segments:
+            a, b = A.of(*ra), B.of(*rb)
         for e, frame, *n in segments:
-            require(s <= e and frame in ("W", "A") and len(n) == 3, "segments are out of order")
-            yield Apart(pair, A.of(*ra), B.of(*rb), s, e, frame == "A", n, gap)
+            if not (s <= e and frame in ("W", "A") and len(n) == 3):
+                raise Refused("segments are out of order")
+            yield Apart(pair, a, b, s, e, frame == "A", n, gap)
             s, owing = e, False
         if s < end or owing:
-            require(split is not None, f"elements {ra} of A and {rb} of B are not shown apart from {s} on")
+            require(split is not None, "some elements are not shown apart to the end")
             side, cuts, children = split
             ends = [(ra if side == "a" else rb)[0], *cuts, (ra if side == "a" else rb)[1]]
-            require(side in ("a", "b") and all(x < y for x, y in zip(ends, ends[1:])), "a split does not cover its side")
-            for child, r in zip(children, list(zip(ends, ends[1:])), strict=True):
+            ranges = list(zip(ends, ends[1:]))
+            require(side in ("a", "b") and all(x < y for x, y in ranges), "a split does not cover its side")
+            for child, r in zip(children, ranges, strict=True):
                 stack.append((child, r, rb, s, owing) if side == "a" else (child, ra, r, s, owing))
     for mesh, other, of_b in ((pair.a, pair.b, True), (pair.b, pair.a, False)):
         if mesh.kind == "mesh":  # its surface is apart from the other body: one point of each connected part decides
@@ -231,13 +235,13 @@ def exact_time(pair, cert, t_lo, t_hi):
     RA, RB, dp, d, _, theta = pair.exact
     t, n = number(cert["time"]), [number(c) for c in cert["normal"]]
     require(not theta and rational(t_lo) <= t <= rational(t_hi), "the exact time lies outside its bracket")
-    A, B = (body.pieces[cert[key]["piece"]].vertices for key, body in (("a", pair.a), ("b", pair.b)))
-    A, B = [mul(RA, vector(v)) for v in A], [add(mul(RB, vector(v)), dp) for v in B]
-    apart_by = min(dot(n, b) for b in B) - max(dot(n, a) for a in A)
+    A, B = (body.pieces[cert[key]["piece"]] for key, body in (("a", pair.a), ("b", pair.b)))
+    apart_by = dot(n, dp) - support(B, transposed(RB, [-c for c in n]))[0] - support(A, transposed(RA, n))[0]
     require(dot(n, d) > 0 and apart_by == t * dot(n, d), "the plane does not touch both bodies at t*")
-    sums = []
-    for side, X in ((cert["a"], A), (cert["b"], B)):
-        weights = [number(w) for w in side["weights"]]
-        require(min(weights) >= 0 and sum(weights) == 1 and min(side["vertices"]) >= 0, "the weights are not convex")
-        sums.append([sum(w * X[i][c] for w, i in zip(weights, side["vertices"], strict=True)) for c in range(3)])
-    require(all(b - a == t * z for a, b, z in zip(*sums, d)), "the weights do not touch at t*")
+    meeting = add(dp, d, -t)
+    for side, X, R, sign in ((cert["a"], A, RA, -1), (cert["b"], B, RB, 1)):
+        weights, ids = [number(w) for w in side["weights"]], side["vertices"]
+        require(len(weights) == len(ids) and min(weights) >= 0 and sum(weights) == 1 and min(ids) >= 0, "the weights are not convex")
+        for w, i in zip(weights, ids):
+            meeting = add(meeting, mul(R, vector(X.vertices[i])), sign * w)
+    require(not any(meeting), "the weights do not touch at t*")

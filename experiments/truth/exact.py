@@ -9,11 +9,10 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
-from flint import fmpq_mat
-
 from ofg import Query
 
-from .balls import add, cross, dot, rational, rotation, vector
+from .balls import add, cross, dot, mul, rational, rotation, transposed, vector
+from .geometry import support
 
 ROUNDS = 60
 
@@ -22,12 +21,11 @@ def exact_time(query: Query, piece_a: int, piece_b: int, plane) -> dict | None:
     """The certificate's `exact` for these pieces, from a plane (3 doubles) near the touching one; None where it degenerates."""
     a, b = query.a.pieces[piece_a], query.b.pieces[piece_b]
     d = vector(query.motion.displacement)
-    A = world(a.vertices, query.pose_a.quaternion)
-    B = world(b.vertices, query.pose_b.quaternion)
+    RA, RB = (rotation(*map(rational, p.quaternion)) for p in (query.pose_a, query.pose_b))
     dp = add(vector(query.pose_b.position), vector(query.pose_a.position), -1)
 
     def point(i, j):
-        return [B[j, c] + dp[c] - A[i, c] for c in range(3)]
+        return add(add(mul(RB, vector(b.vertices[j])), dp), mul(RA, vector(a.vertices[i])), -1)
 
     for start in _portals(query, a.vertices, b.vertices, plane):
         corners = [(i, j, point(i, j)) for i, j in start]
@@ -44,8 +42,7 @@ def exact_time(query: Query, piece_a: int, piece_b: int, plane) -> dict | None:
             n = [-c for c in n]
         if dot(n, d) == 0:
             return None
-        column = fmpq_mat(3, 1, n)
-        i, j = _argmax(A * column, 1), _argmax(B * column, -1)
+        i, j = support(a, transposed(RA, n))[1], support(b, transposed(RB, [-c for c in n]))[1]
         lowest = point(i, j)
         if dot(n, lowest) == dot(n, corners[0][2]):
             t = dot(n, lowest) / dot(n, d)
@@ -58,17 +55,6 @@ def exact_time(query: Query, piece_a: int, piece_b: int, plane) -> dict | None:
             return None
         corners = swaps[0]
     return None
-
-
-def world(vertices, quaternion) -> fmpq_mat:
-    """(n, 3) rationals R(q) v."""
-    R = fmpq_mat(3, 3, [c for row in rotation(*map(rational, quaternion)) for c in row])
-    return fmpq_mat(len(vertices), 3, [rational(c) for c in vertices.ravel().tolist()]) * R.transpose()
-
-
-def _argmax(column, sign) -> int:
-    keys = [sign * column[i, 0] for i in range(column.nrows())]
-    return max(range(len(keys)), key=keys.__getitem__)
 
 
 def _pierced(c, d):

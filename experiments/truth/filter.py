@@ -42,8 +42,8 @@ def _apart(jobs) -> list[tuple]:
     os = [o for _, o in jobs]
     N = Numbers([o.pair for o in os])
     RA, RB, dp, d, k, theta, reach = N.RA, N.RB, N.dp, N.d, N.k, N.theta, N.reach
-    n = np.array([[nearest_double(c) for c in o.n] for o in os])
-    s, e, gap, turning = (np.array(column) for column in zip(*((o.s, o.e, o.gap, o.turning) for o in os)))
+    n = np.array([o.n if all(type(c) is float for c in o.n) else [nearest_double(c) for c in o.n] for o in os])
+    s, e, turning, gap = (np.array(column) for column in zip(*[(*o[3:6], o[7]) for o in os]))
     error = 256 * UNIT * (1 + np.abs(theta)) * np.abs(n).sum(1) * reach
     margin = gap * _norm(n) * (1 + 8 * UNIT) + 2 * error
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from functools import cached_property
+from math import lcm
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from flint import arb
+from flint import arb, fmpq, fmpz, fmpz_mat
 
 from .balls import add, cross, dot, norm, rational, rotation, vector
 
-_reaches, _parts, _boxes = WeakKeyDictionary(), WeakKeyDictionary(), WeakKeyDictionary()
+_reaches, _parts, _boxes, _integers = (WeakKeyDictionary() for _ in range(4))
 
 
 class Pair:
@@ -89,6 +90,20 @@ def reach(body) -> float:
     if body not in _reaches:
         _reaches[body] = float(np.abs(body.vertices).sum(axis=1).max())
     return _reaches[body]
+
+
+def support(piece, m):
+    """(value, index) of the largest m.v over a convex body's vertices, m of rationals: in integers."""
+    if piece not in _integers:
+        shift = max(0, *(53 - e for e in np.frexp(piece.vertices[piece.vertices != 0])[1].tolist()))
+        _integers[piece] = fmpz_mat([[int(fmpz(p) * 2**shift // q) for p, q in map(float.as_integer_ratio, v)]
+                                     for v in piece.vertices.tolist()]), 2**shift
+    vertices, scale = _integers[piece]
+    m = [fmpq(c) for c in m]
+    common = lcm(*(int(c.q) for c in m))
+    column = (vertices * fmpz_mat([[c.p * (common // c.q)] for c in m])).entries()
+    best = max(range(len(column)), key=column.__getitem__)
+    return fmpq(column[best], common * scale), best
 
 
 def face_boxes(mesh):

@@ -59,10 +59,15 @@ class Solid {
   private:
     void nearest(int id, vec<dd> y, double& best, vec<double>& away) const {
         auto& n = nodes[id];
-        if (std::hypot(double(y.x) - n.centre[0], double(y.y) - n.centre[1], double(y.z) - n.centre[2]) - n.radius >= best) return;
         if (n.left >= 0) {
-            nearest(n.left, y, best, away);
-            nearest(n.right, y, best, away);
+            auto far = [&](int i) {
+                auto& c = nodes[i].centre;
+                double x = double(y.x) - c[0], z = double(y.y) - c[1], w = double(y.z) - c[2];
+                return std::sqrt(x * x + z * z + w * w) - nodes[i].radius;
+            };
+            double l = far(n.left), r = far(n.right);
+            for (auto [d, i] : {l < r ? std::pair{l, n.left} : std::pair{r, n.right}, l < r ? std::pair{r, n.right} : std::pair{l, n.left}})
+                if (d < best) nearest(i, y, best, away);
             return;
         }
         Gjk<double> g;  // the triangle's point closest to y
