@@ -32,7 +32,7 @@ Scenarios = Annotated[Optional[list[Path]], typer.Option("--scenarios", help="Py
 
 @app.command("list")
 def list_(methods: Methods = None, scenarios_: Scenarios = None) -> None:
-    """Show scenarios, methods (what each can answer, and whether its engine is installed) and presets."""
+    """Show scenarios, methods (what each can answer, and whether its engine is installed), experiments and presets."""
     _extend(methods, scenarios_)
     _print_grid("Scenarios", ("name", "question", "difficulty", "levels", "exposes"),
                 [(s.name, s.question, s.axis, _levels(s.levels), s.exposes) for s in scenarios.scenarios().values()])
@@ -41,19 +41,23 @@ def list_(methods: Methods = None, scenarios_: Scenarios = None) -> None:
                   ", ".join(sorted(m.bodies)), "solid" if m.solid else "surface", " ".join(f"{k}={v}" for k, v in m.parameters.items()),
                   "not installed" if registry.available(m) else m.engine) for m in registry.methods().values()])
     console.print("Questions: [b]o[/b]verlap at one pose pair, [b]t[/b]ranslation, [b]m[/b]otion (turning and translating).")
-    console.print(f"Presets: {', '.join(configuration.presets())}.")
+    console.print()
+    experiments = {name: configuration.load(name) for name in configuration.experiments()}
+    _print_grid("Experiments", ("name", "title", "what it asks"), [(name, c.title, c.about) for name, c in experiments.items()])
+    _print_grid("Presets", ("name", "what it is"), [(name, configuration.load(name).about) for name in configuration.presets()],
+                "Each experiment and each preset runs alone: ofg-bench run NAME. ofg-bench preset NAME > mine.toml gives a copy to change.")
 
 
 @app.command()
-def preset(name: str) -> None:
-    """Print a preset's configuration, to be changed and run: ofg-bench preset quick > mine.toml"""
+def preset(name: Annotated[str, typer.Argument(help="of a preset or an experiment")]) -> None:
+    """Print the configuration of a preset or experiment, to be changed and run: ofg-bench preset quick > mine.toml"""
     configuration.load(name)
-    print((configuration.PRESETS / f"{name}.toml").read_text(), end="")
+    print(configuration.path_of(name).read_text(), end="")
 
 
 @app.command()
 def run(
-    source: Annotated[str, typer.Argument(metavar="CONFIG", help="a preset's name, or the path of a .toml file")],
+    source: Annotated[str, typer.Argument(metavar="CONFIG", help="the name of a preset or experiment, or the path of a .toml file")],
     out: Annotated[Optional[Path], typer.Option(help="folder of the run [default: results/runs/CONFIG]")] = None,
     workers: Workers = None,
     seed: Annotated[Optional[int], typer.Option(min=0, help="another seed than the configuration's")] = None,
@@ -70,6 +74,27 @@ def run(
 
 
 @app.command()
+def reproduce(
+    names: Annotated[Optional[list[str]], typer.Argument(help="experiments and presets [default: every experiment of the catalogue, then standard]")] = None,
+    into: Annotated[Path, typer.Option(help="folder of the run folders")] = Path("results"),
+    workers: Workers = None,
+) -> None:
+    """Run experiments one after another, each into its own folder, and build all tables, figures and reports anew.
+
+    What is finished already is not run again: remove its folder if it shall be. Said again after an interruption, it goes on where it stopped.
+    """
+    from . import runner
+
+    names = names or [*configuration.experiments(), "standard"]
+    chosen = {name: configuration.load(name) for name in names}
+    for i, (name, config) in enumerate(chosen.items(), 1):
+        console.print(f"[bold]{i} of {len(names)}: {name}[/] {config.title}", highlight=False)
+        _say_missing(config)
+        runner.run(config, into / name, workers)
+    console.print(f"All of it is in {into}: tables, figures, report.html, manifest.json and the rows of each run.")
+
+
+@app.command()
 def resume(run_: Run, workers: Workers = None, skip_missing: SkipMissing = False) -> None:
     """Finish a run that was interrupted. It ends as if it had not been."""
     _run(Store(run_).config, run_, workers, skip_missing)
@@ -78,14 +103,18 @@ def resume(run_: Run, workers: Workers = None, skip_missing: SkipMissing = False
 def _run(config: configuration.RunConfig, folder: Path, workers: int | None, skip_missing: bool) -> None:
     from . import runner
 
+    _say_missing(config)
     made = runner.run(config, folder, workers, skip_missing)
     for table in made:
         if table.headline:
             _print_table(table)
-    others = ", ".join(table.name for table in made if not table.headline)
-    console.print(f"{len(made)} tables were made; not printed here: {others}. Print them with: ofg-bench tables {folder} --only NAME\n")
-    console.print(f"Tables (CSV, Markdown) are in {folder / 'tables'}, figures (SVG, PNG) in {folder / 'figures'}; every case with its "
-                  f"certificate in {folder / 'cases.parquet'}, every answer in {folder / 'observations.parquet'}.")
+    if others := ", ".join(table.name for table in made if not table.headline):
+        console.print(f"{len(made)} tables were made; not printed here: {others}. Print them with: ofg-bench tables {folder} --only NAME\n")
+    if config.stepping:
+        console.print(f"Tables (CSV, Markdown, LaTeX) are in {folder / 'tables'}, all counts in {folder / 'stepping.parquet'}.")
+    else:
+        console.print(f"Tables (CSV, Markdown, LaTeX) are in {folder / 'tables'}, figures (SVG, PNG) in {folder / 'figures'}; every case with its "
+                      f"certificate in {folder / 'cases.parquet'}, every answer in {folder / 'observations.parquet'}.")
 
 
 @app.command()
@@ -177,12 +206,33 @@ def check(name: Annotated[str, typer.Argument(metavar="METHOD", help='a method, 
     raise typer.Exit(1 if failed else 0)
 
 
+def _say_missing(config: configuration.RunConfig) -> None:
+    from . import runner
+
+    configuration.load_files(config)
+    for reason in runner.missing(config.optional_methods):
+        console.print(f"Its rows stay empty: {reason}", highlight=False)
+
+
 def _print_table(table) -> None:
     """A table of a run, without its optional columns where the terminal is too narrow for them."""
     text, optional = table.text, list(table.optional)
     while optional and _width(text) > console.width:
         text = text.drop(columns=optional.pop(0))
-    _print_grid(table.title, text.columns, list(text.itertuples(index=False)), table.caption)
+    for columns in _strips(text):
+        part = text[columns]
+        _print_grid(table.title, part.columns, list(part.itertuples(index=False)), table.caption)
+
+
+def _strips(text) -> list[list[str]]:
+    """The columns in as many strips as it takes for each to fit the terminal; the first column is in all of them."""
+    first, *rest = text.columns
+    strips = [[first]]
+    for column in rest:
+        if len(strips[-1]) > 1 and _width(text[[*strips[-1], column]]) > console.width:
+            strips.append([first])
+        strips[-1].append(column)
+    return strips
 
 
 def _print_grid(title: str, columns, rows, caption: str = "") -> None:

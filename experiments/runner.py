@@ -26,7 +26,7 @@ def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missin
     tables.check(config)
     if config.stepping:
         stepping.check(config.stepping)
-    absent = missing(config)
+    absent = missing(config.methods)
     if absent and not skip_missing:
         raise ConfigError("An engine that this run asks for is not installed. " + " ".join(absent) + " Or leave its rows "
                           "empty with --skip-missing.")
@@ -35,6 +35,8 @@ def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missin
     if not store.has("manifest.json"):
         note(store, started=manifest.now(), commit=manifest.commit(), versions=manifest.versions(config), before=manifest.machine())
     workers = workers or os.cpu_count() or 1
+    if "finished" in facts(store):
+        return report(store)
     if config.stepping:
         stepping.measure(store, config)
         note(store, finished=manifest.now(), after=manifest.machine())
@@ -73,13 +75,17 @@ def halfway(forecast: progress.Forecast) -> dict | None:
     return found and {"said_left": round(found[0], 1), "was_left": round(found[1], 1)}
 
 
-def missing(config: RunConfig) -> list[str]:
+def missing(specs: tuple[str, ...]) -> list[str]:
     """One sentence per engine that is asked for and not installed. Raises for an unknown method."""
-    classes = {type(m) for spec in config.methods for m in registry.make(spec)}
+    classes = {type(m) for spec in specs for m in registry.make(spec)}
     return sorted({reason for cls in classes if (reason := registry.available(cls))})
 
 
-def note(store: Store, **facts) -> None:
+def facts(store: Store) -> dict:
+    """What manifest.json holds."""
+    return json.loads((store.folder / "manifest.json").read_text()) if store.has("manifest.json") else {}
+
+
+def note(store: Store, **more) -> None:
     """Add facts to manifest.json."""
-    known = json.loads((store.folder / "manifest.json").read_text()) if store.has("manifest.json") else {}
-    store.write_text(json.dumps({**known, **facts}, indent=1) + "\n", "manifest.json")
+    store.write_text(json.dumps({**facts(store), **more}, indent=1) + "\n", "manifest.json")

@@ -64,6 +64,10 @@ def general(store: Store, found: pd.DataFrame) -> Iterator[Table]:
 
 
 def save(store: Store, tables: list[Table]) -> None:
+    """Write each table as CSV, Markdown and LaTeX; files of tables that are not made any more go."""
+    for path in store.folder.glob("tables/*"):
+        if path.suffix in (".csv", ".md", ".tex") and path.stem not in {table.name for table in tables}:
+            path.unlink()
     for table in tables:
         store.write_text(table.numbers.to_csv(index=False, float_format="%.9g", lineterminator="\n"), "tables", f"{table.name}.csv")
         store.write_text(markdown(table), "tables", f"{table.name}.md")
