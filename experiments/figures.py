@@ -8,6 +8,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from baselines import registry
 
@@ -88,6 +89,11 @@ def _panel(axis, part: pd.DataFrame, styles) -> None:
             if len(group) > 1 and row.Index in (group.index[0], group.index[-1]):
                 axis.annotate(row.method.split()[1], (row.us, 100 * row.rate), textcoords="offset points", xytext=(3, 3), fontsize=5, color=colour)
     axis.set_xscale("log")
+    axis.margins(x=0.08)
+    span = np.log10(part.us.max() / part.us.min())
+    axis.xaxis.set_major_locator(LogLocator(subs=(1.0,) if span > 2 else (1.0, 2.0, 5.0)))
+    axis.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.xaxis.set_minor_formatter(NullFormatter())
     axis.set_yscale("symlog", linthresh=1, linscale=0.6)
     axis.set_ylim(-0.15, 110)
     axis.set_yticks([0, 1, 3, 10, 30, 100], ["0", "1", "3", "10", "30", "100"])
