@@ -22,17 +22,19 @@ struct Points {
 template <class T>
 struct Blocks {
   std::vector<T> x, y, z, lo[3], hi[3];
-  std::vector<int> face;  // of each slot
-  int count = 0;
+  using Int = typename IntOf<T>::type;
+  std::vector<Int> face;  // of each slot, then padding
+  int faces = 0, count = 0;
 
   BlockView<T> view() const {
     return {x.data(), y.data(), z.data(), face.data(), {lo[0].data(), lo[1].data(), lo[2].data()}, {hi[0].data(), hi[1].data(), hi[2].data()},
-            int(face.size()), count};
+            faces, count};
   }
 
   explicit Blocks(const Points<T>& centres = {}) {
-    face.resize(std::size_t(centres.size()));
-    for (std::size_t i = 0; i < face.size(); ++i) face[i] = int(i);
+    faces = centres.size();
+    face.resize(std::size_t(faces));
+    for (std::size_t i = 0; i < face.size(); ++i) face[i] = Int(i);
     split(centres, 0, face.size());
     count = int((face.size() + block_faces - 1) / block_faces);
     constexpr T inf = std::numeric_limits<T>::infinity();
@@ -50,6 +52,7 @@ struct Blocks {
         h = first || at[j] > h ? at[j] : h;
       }
     }
+    face.resize(std::size_t(count) * block_faces);
   }
 
  private:
@@ -68,7 +71,7 @@ struct Blocks {
       if (h - l > most) most = h - l, longest = a;
     }
     const std::size_t middle = from + ((to - from) / 2 + block_faces - 1) / block_faces * block_faces;
-    const auto before = [&](int i, int j) {
+    const auto before = [&](Int i, Int j) {
       const T a = (*longest)[std::size_t(i)], b = (*longest)[std::size_t(j)];
       return a < b || (a == b && i < j);
     };
@@ -88,6 +91,7 @@ struct Mesh {
   Blocks<T> blocks;                            // the same centres, for the selection
   std::vector<T> corners;                      // of each face: nine coordinates in a row
   Cloud<T> cloud;                              // the vertices, for supports
+  std::vector<T> face_above;                   // how far any vertex is above a face's plane, times its normal's length: 0 where convex
   std::vector<T> face_radius;                  // from a face's centre to its farthest vertex, rounded up
   Vec3<T> centre;                              // mean of the vertices
   T radius = 0;                                // from `centre` to the farthest vertex, rounded up
@@ -132,8 +136,23 @@ struct Mesh {
       corners.insert(corners.end(), {t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z});
     }
     blocks = Blocks<T>(centres);
+    find_face_above();
     for (std::size_t i = 0; i < n; ++i) cloud.push(vertices[i]);
     cloud.pad();
+  }
+
+  // Never believed of a mesh that is not convex: there it is infinite, as it is where working it out would take long.
+  void find_face_above() {
+    constexpr double most_work = 3e8;
+    face_above.assign(faces.size(), std::numeric_limits<T>::infinity());
+    if (!convex || double(faces.size()) * vertices.size() > most_work) return;
+    for (int f = 0; f < size(); ++f) {
+      const Triangle<T> t = triangle(f);
+      const Vec3<T> n = t.normal();
+      T above = 0;
+      for (int i = 0; i < vertices.size(); ++i) above = std::fmax(above, dot(n, vertices[std::size_t(i)] - t.a));
+      if (dot(n, n) > 0) face_above[std::size_t(f)] = above;
+    }
   }
 
   int size() const { return int(faces.size()); }

@@ -14,21 +14,46 @@ T scale_of(const Mesh<T>& a, const Mesh<T>& b, const Vec3<T>& p) {
 
 inline bool spheres_apart(const Vec3<double>& between, double sum) { return dot(between, between) > sum * sum; }
 
-// Step 8: face against face, the nearest first, until two meet. After the first row, one plane between the two selections
-// settles all other pairs, if there is one; the planes of the faces settle most of what is left.
+// triangles_meet, after the planes of the two have been tried. `axis`: one that keeps them apart, from t0 to s0, if they are.
 template <class T>
-bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Workspace<T>& w, Answer& answer) {
-  const T slack = rounding<T> * scale;
+bool edges_meet(const Triangle<T>& s0, const Triangle<T>& t0, T slack, Vec3<T>& axis) {
+  const Vec3<T> o = t0.a;
+  const Triangle<T> s{s0.a - o, s0.b - o, s0.c - o}, t{{}, t0.b - o, t0.c - o};
+  const T cs[9] = {s.a.x, s.a.y, s.a.z, s.b.x, s.b.y, s.b.z, s.c.x, s.c.y, s.c.z};
+  const T ct[9] = {0, 0, 0, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
+  T best[3];
+  if (kernels<T>.edges_apart(cs, ct, slack, best)) return axis = {best[0], best[1], best[2]}, false;
+  return !((sliver(s) || sliver(t)) && slivers_apart(s, t, slack));
+}
+
+// Is the plane of one of the selected faces a wall between the selections? `axis`: the normal of the best, from B to A.
+template <class T>
+bool walled_off(const Selection<T>& a, const Selection<T>& b, T gap, Vec3<T>& axis) {
+  T n[3], m[3];
+  const T of_b = kernels<T>.planes_gap(b.view(), b.above.data(), b.padded(), a.cloud(), n);
+  if (of_b > gap) return true;
+  const T of_a = kernels<T>.planes_gap(a.view(), a.above.data(), a.padded(), b.cloud(), m);
+  const bool first = of_b > of_a;
+  if ((first ? of_b : of_a) > -std::numeric_limits<T>::infinity()) axis = first ? Vec3<T>(n[0], n[1], n[2]) : Vec3<T>(-m[0], -m[1], -m[2]);
+  return of_a > gap;
+}
+
+// Step 8: face against face, the nearest first, until two meet. What settles many pairs at once is tried where it is likely to: the
+// planes of the faces before the first row, the axis that kept a pair apart after it, and a search for any plane after the row.
+template <class T>
+bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Vec3<T> axis, Workspace<T>& w, Answer& answer) {
+  const T slack = rounding<T> * scale, gap = 4 * slack;
+  const CloudView<T> cloud_a = a.cloud(), cloud_b = b.cloud();
+  const auto along = [&](const Vec3<T>& v) { return support(cloud_a, cloud_b, v); };
+  const std::int64_t all = answer.counts.face_pairs + std::int64_t(a.size()) * b.size();
+  const auto settled = [&] {
+    answer.counts.face_pairs = all;
+    return false;
+  };
+  if (walled_off(a, b, gap, axis)) return settled();
   const TriangleView<T> faces = b.view();
   for (int i = 0; i < a.size(); ++i) {
-    if (i == 1) {
-      Vec3<T> axis = a.triangle(0).a - b.triangle(0).a;
-      const auto least = [&](const Vec3<T>& v) { return a.least(v, w.scratch.data(), 0, 1) - b.least(-v, w.scratch.data(), 0, 1); };
-      if (separated(axis, 4 * slack, least)) {
-        answer.counts.face_pairs += std::int64_t(a.size() - 1) * b.size();
-        return false;
-      }
-    }
+    if (i == 1 && separated(axis, gap, along)) return settled();
     const Triangle<T> t = a.triangle(i);
     const T corners[9] = {t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
     kernels<T>.planes_apart(faces, b.padded(), corners, slack, w.flags.data());
@@ -36,9 +61,12 @@ bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Workspace
       ++answer.counts.face_pairs;
       if (w.flags[std::size_t(j)]) continue;
       ++answer.counts.full_tests;
-      if (!triangles_meet(t, b.triangle(j), scale)) continue;
-      answer.face_a = a.near[std::size_t(i)].face, answer.face_b = b.near[std::size_t(j)].face;
-      return true;
+      Vec3<T> own;
+      if (edges_meet(t, b.triangle(j), slack, own)) {
+        answer.face_a = a.near[std::size_t(i)].face, answer.face_b = b.near[std::size_t(j)].face;
+        return true;
+      }
+      if (i == 0 && !(own == Vec3<T>()) && separated(own, gap, along, 1)) return settled();
     }
   }
   return false;
@@ -54,7 +82,8 @@ bool holds(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& a_to_b, const
 }  // namespace detail
 
 // Convex or not, `a` and `b` are tested as surfaces (with `containment` as solids). Does not allocate once `w` has room for both.
-template <class T>
+// Last: the step after which to stop, so that the cost of each can be measured; nothing else has a use for less than 8.
+template <int Last = 8, class T>
 Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o, Workspace<T>& w) {
   Answer answer;
   Counts& counts = answer.counts;
@@ -68,15 +97,17 @@ Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Opt
     answer.hit = true;
     return answer;
   }
+  if constexpr (Last < 2) return answer;
   const Vec3<T> centre_b = to_a(b.centre);
   select(a, &centre_b, 1, o, b.radius, w, w.a, counts);  // 2, 3, 7
+  if constexpr (Last < 4) return answer;
   const Vec3<T> centre_a = to_b(w.a.centre);
   select(b, &centre_a, 1, o, w.a.radius, w, w.b, counts);  // 4, 5, 7
   ++counts.spheres;
   if (detail::spheres_apart(Vec3<double>(centre_a - w.b.centre), double(w.a.radius) + double(w.b.radius) + slack)) return answer;  // 6
-  gather(a, to_b, w.a);
-  gather(b, w.b);
-  answer.hit = detail::faces_meet(w.a, w.b, detail::scale_of(a, b, to_b.p), w, answer);  // 8
+  if constexpr (Last < 8) return answer;
+  move(to_b, w.a);
+  answer.hit = detail::faces_meet(w.a, w.b, detail::scale_of(a, b, to_b.p), centre_a - w.b.centre, w, answer);  // 8
   if (answer.hit) answer.found = Found::start;
   return answer;
 }

@@ -10,12 +10,35 @@
 
 namespace ofg {
 
+// Entries in memory that was reserved: emptying and filling writes nothing else.
+template <class T>
+class List {
+ public:
+  void reserve(std::size_t n) { store.resize(std::max(n, store.size())); }
+  void clear() { used = 0; }
+  void push_back(const T& x) { store[used++] = x; }
+  void keep(std::size_t n) { used = n; }  // the first n entries of the memory
+  std::size_t size() const { return used; }
+  T* data() { return store.data(); }
+  T* begin() { return store.data(); }
+  T* end() { return store.data() + used; }
+  const T* begin() const { return store.data(); }
+  const T* end() const { return store.data() + used; }
+  const T& operator[](std::size_t i) const { return store[i]; }
+  void swap(List& other) { store.swap(other.store), std::swap(used, other.used); }
+
+ private:
+  std::vector<T> store;
+  std::size_t used = 0;
+};
+
 template <class T>
 struct Selection {
-  std::vector<Candidate<T>> near;  // nearest first; equal distances in the order of the faces
+  List<Candidate<T>> near;         // nearest first; equal distances in the order of the faces
   std::vector<T> x, y, z;          // corners of the same faces where they were placed: all a, then all b, then all c, each padded
-  std::vector<int> vertices, edges;         // of the selected faces, each once, nearest first
-  std::vector<int> vertex_face, edge_face;  // a selected face each belongs to
+  List<int> vertices, edges;       // of the selected faces, each once, nearest first
+  List<int> vertex_face, edge_face;  // a selected face each belongs to
+  std::vector<T> above;            // face_above of the same faces, padded
   Vec3<T> centre;                  // mean of the faces' centres, in the body's own frame
   T radius = 0;                    // from `centre` to the farthest vertex of the faces, rounded up
 
@@ -30,22 +53,15 @@ struct Selection {
     const std::size_t a = std::size_t(i), n = std::size_t(padded()), b = a + n, c = b + n;
     return {{x[a], y[a], z[a]}, {x[b], y[b], z[b]}, {x[c], y[c], z[c]}};
   }
-  // The corner least along an axis, of the first `copies` of the selection.
-  Vec3<T> least(const Vec3<T>& axis, T* scratch, int from, int copies) const {
-    const T v[3] = {axis.x, axis.y, axis.z};
-    const int n = 3 * padded(), first = from * n;
-    int at;
-    kernels<T>.support(x.data() + first, y.data() + first, z.data() + first, copies * n, v, scratch, &at);
-    const std::size_t i = std::size_t(first + at);
-    return {x[i], y[i], z[i]};
-  }
+  // The corners, of both copies if there are two.
+  CloudView<T> cloud(int copies = 1) const { return {x.data(), y.data(), z.data(), copies * 3 * padded()}; }
 };
 
 // All memory a query needs. Reserve once for the largest meshes; then no query allocates. One per thread.
 template <class T>
 struct Workspace {
   Selection<T> a, b;
-  std::vector<Candidate<T>> candidates;
+  List<Candidate<T>> candidates;
   std::vector<std::uint32_t> seen_face, seen_vertex, seen_edge;
   std::uint32_t epoch = 0;
   std::vector<T> scratch, scratch_bound, box[6];
@@ -59,12 +75,12 @@ struct Workspace {
     if (f <= seen_face.size() && v <= seen_vertex.size() && e <= seen_edge.size()) return;
     const auto grow = [](auto& vector, std::size_t n) { vector.resize(std::max(n, vector.size())); };
     for (auto* s : {&a, &b}) {
-      s->near.reserve(f), s->vertices.reserve(v), s->vertex_face.reserve(v), s->edges.reserve(e), s->edge_face.reserve(e);
-      grow(s->x, 6 * f), grow(s->y, 6 * f), grow(s->z, 6 * f);
+      s->near.reserve(f + most_ranked), s->vertices.reserve(v), s->vertex_face.reserve(v), s->edges.reserve(e), s->edge_face.reserve(e);
+      grow(s->x, 6 * f), grow(s->y, 6 * f), grow(s->z, 6 * f), grow(s->above, f);
     }
-    candidates.reserve(std::max<std::size_t>(f, most_ranked));
+    candidates.reserve(f + most_ranked);
     grow(seen_face, f), grow(seen_vertex, v), grow(seen_edge, e);
-    grow(scratch, std::max(6 * f, v + 2 * block_faces)), grow(scratch_bound, f), grow(list, f), grow(ids, f + most_ranked), grow(flags, std::max(f, e));
+    grow(scratch, f + most_ranked), grow(scratch_bound, f), grow(list, f), grow(ids, f + most_ranked), grow(flags, std::max(f, e));
     for (auto& side : box) grow(side, e);
   }
   void reserve(const Body<T>& ba, const Body<T>& bb) {
@@ -84,25 +100,23 @@ struct Workspace {
 namespace detail {
 
 template <class T>
-void k_nearest(std::vector<Candidate<T>>& c, int k) {
+void k_nearest(List<Candidate<T>>& c, int k) {
   if (k < int(c.size())) {
     std::nth_element(c.begin(), c.begin() + k, c.end());
-    c.resize(std::size_t(k));
+    c.keep(std::size_t(k));
   }
   std::sort(c.begin(), c.end());
 }
 
 // By centres, in blocks: what most queries do.
 template <class T>
-void nearest_centres(const Mesh<T>& m, const Vec3<T>& point, int k, Workspace<T>& w, Counts& counts) {
+void nearest_centres(const Mesh<T>& m, const Vec3<T>& point, int k, Workspace<T>& w, List<Candidate<T>>& found, Counts& counts) {
   const T p[3] = {point.x, point.y, point.z};
   NearestScratch<T> scratch{w.scratch_bound.data(), w.scratch.data(), w.list.data(), w.ids.data()};
-  w.candidates.resize(std::size_t(std::max(m.size(), most_ranked)));
   int evaluated;
-  const int n = kernels<T>.nearest(m.blocks.view(), p, k, scratch, w.candidates.data(), &evaluated);
+  found.keep(std::size_t(kernels<T>.nearest(m.blocks.view(), p, k, scratch, found.data(), &evaluated)));
   counts.evaluated += evaluated;
-  w.candidates.resize(std::size_t(n));
-  if (n > k) k_nearest(w.candidates, k);
+  if (int(found.size()) > k) k_nearest(found, k);
 }
 
 // By any distance, face by face.
@@ -123,34 +137,42 @@ bool out_of_reach(const Mesh<T>& m, const Candidate<T>& c, T reach, Nearest near
   return c.distance > far * far;
 }
 
+// The corners of the selected faces, as copy number `copy` (0, or 1 for the end of a sweep), in the frame of the mesh.
+template <class T>
+void gather(const Mesh<T>& m, Selection<T>& s, int copy = 0) {
+  const std::size_t n = std::size_t(s.padded()), first = std::size_t(copy) * 3 * n;
+  T *x = s.x.data() + first, *y = s.y.data() + first, *z = s.z.data() + first;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t f = std::size_t(s.near[i < s.near.size() ? i : 0].face);
+    const T* c = &m.corners[9 * f];
+    s.above[i] = m.face_above[f];
+    x[i] = c[0], y[i] = c[1], z[i] = c[2];
+    x[n + i] = c[3], y[n + i] = c[4], z[n + i] = c[5];
+    x[2 * n + i] = c[6], y[2 * n + i] = c[7], z[2 * n + i] = c[8];
+  }
+}
+
+// Centre and radius of a selection; leaves its corners gathered in its own frame.
 template <class T>
 void bound(const Mesh<T>& m, Selection<T>& s) {
   Vec3<T> sum;
   for (const auto& x : s.near) sum = sum + m.centres[std::size_t(x.face)];
   s.centre = sum * (T(1) / T(s.size()));
-  T most = 0;
-  for (const auto& x : s.near) {
-    const T* c = &m.corners[9 * std::size_t(x.face)];
-    for (int i = 0; i < 9; i += 3) {
-      const Vec3<T> d = Vec3<T>(c[i], c[i + 1], c[i + 2]) - s.centre;
-      const T far = dot(d, d);
-      most = far > most ? far : most;
-    }
-  }
-  s.radius = std::sqrt(most) + rounding<T> * m.extent;
+  gather(m, s);
+  const T p[3] = {s.centre.x, s.centre.y, s.centre.z};
+  s.radius = std::sqrt(kernels<T>.farthest(s.x.data(), s.y.data(), s.z.data(), 3 * s.padded(), p)) + rounding<T> * m.extent;
 }
 
 }  // namespace detail
 
-// The k faces nearest to each of `points` (in the mesh's frame). With adaptive k also every face that comes within `reach` of
-// one of them.
+// The k faces nearest to each of `points` (in the mesh's frame), and their corners there. With adaptive k also every face that comes
+// within `reach` of one of them.
 template <class T>
 void select(const Mesh<T>& m, const Vec3<T>* points, int n_points, const Options& o, T reach, Workspace<T>& w, Selection<T>& s,
             Counts& counts) {
   counts.distances += std::int64_t(n_points) * m.size();
   if (n_points == 1 && !o.adaptive_k && o.nearest == Nearest::centre && o.k <= block_faces) {
-    detail::nearest_centres(m, points[0], o.k, w, counts);
-    s.near.swap(w.candidates);
+    detail::nearest_centres(m, points[0], o.k, w, s.near, counts);
     detail::bound(m, s);
     return;
   }
@@ -173,23 +195,9 @@ void select(const Mesh<T>& m, const Vec3<T>* points, int n_points, const Options
   detail::bound(m, s);
 }
 
-// The corners of the selected faces, as copy number `copy` (0, or 1 for the end of a sweep), in the frame of the mesh.
+// Moves the gathered corners to B's frame.
 template <class T>
-void gather(const Mesh<T>& m, Selection<T>& s, int copy = 0) {
-  const std::size_t n = std::size_t(s.padded()), first = std::size_t(copy) * 3 * n;
-  T *x = s.x.data() + first, *y = s.y.data() + first, *z = s.z.data() + first;
-  for (std::size_t i = 0; i < n; ++i) {
-    const T* c = &m.corners[9 * std::size_t(s.near[i < s.near.size() ? i : 0].face)];
-    x[i] = c[0], y[i] = c[1], z[i] = c[2];
-    x[n + i] = c[3], y[n + i] = c[4], z[n + i] = c[5];
-    x[2 * n + i] = c[6], y[2 * n + i] = c[7], z[2 * n + i] = c[8];
-  }
-}
-
-// The same, moved to B's frame.
-template <class T>
-void gather(const Mesh<T>& m, const Transform<T>& to_b, Selection<T>& s, int copy = 0) {
-  gather(m, s, copy);
+void move(const Transform<T>& to_b, Selection<T>& s, int copy = 0) {
   const T rows[9] = {to_b.r.row[0].x, to_b.r.row[0].y, to_b.r.row[0].z, to_b.r.row[1].x, to_b.r.row[1].y, to_b.r.row[1].z,
                      to_b.r.row[2].x, to_b.r.row[2].y, to_b.r.row[2].z};
   const T shift[3] = {to_b.p.x, to_b.p.y, to_b.p.z};

@@ -15,15 +15,17 @@ struct Cloud {
     while (x.size() % lanes<T>) push({x[0], y[0], z[0]});
     size = int(x.size());
   }
-  Vec3<T> operator[](int i) const { return {x[i], y[i], z[i]}; }
-  // The point least along an axis.
-  Vec3<T> least(const Vec3<T>& axis, T* scratch) const {
-    const T a[3] = {axis.x, axis.y, axis.z};
-    int at;
-    kernels<T>.support(x.data(), y.data(), z.data(), size, a, scratch, &at);
-    return (*this)[at];
-  }
+  CloudView<T> view() const { return {x.data(), y.data(), z.data(), size}; }
 };
+
+// The point of (a - b) least along an axis.
+template <class T>
+inline Vec3<T> support(const CloudView<T>& a, const CloudView<T>& b, const Vec3<T>& axis) {
+  const T v[3] = {axis.x, axis.y, axis.z};
+  T w[3];
+  kernels<T>.support(a, b, v, w);
+  return {w[0], w[1], w[2]};
+}
 
 namespace detail {
 

@@ -167,18 +167,19 @@ bool features_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& 
 
 template <class T>
 bool surfaces_meet(const Mesh<T>& a, const Transform<double>& pose, Workspace<T>& w, T scale, Answer& answer) {
-  gather(a, Transform<T>(pose), w.a);
-  return faces_meet(w.a, w.b, scale, w, answer);
+  const Transform<T> to_b(pose);
+  gather(a, w.a);
+  move(to_b, w.a);
+  return faces_meet(w.a, w.b, scale, to_b(w.a.centre) - w.b.centre, w, answer);
 }
 
 // One plane between B's selection and A's at both ends keeps all chords away: none of the tests of the window can hit.
 template <class T>
 bool chords_apart(const Mesh<T>& a, const Window<T>& window, T gap, Workspace<T>& w) {
-  gather(a, Transform<T>(window.start), w.a, 0);
-  gather(a, Transform<T>(window.end), w.a, 1);
+  for (int i = 0; i < 2; ++i) gather(a, w.a, i), move(Transform<T>(i ? window.end : window.start), w.a, i);
   Vec3<T> axis = w.a.triangle(0).a - w.b.triangle(0).a;
-  const auto least = [&](const Vec3<T>& v) { return w.a.least(v, w.scratch.data(), 0, 2) - w.b.least(-v, w.scratch.data(), 0, 1); };
-  return separated(axis, gap, least);
+  const CloudView<T> cloud_a = w.a.cloud(2), cloud_b = w.b.cloud();
+  return separated(axis, gap, [&](const Vec3<T>& v) { return support(cloud_a, cloud_b, v); });
 }
 
 // Halves the window, testing the first half each time, with all tests of the sweep.
@@ -249,12 +250,15 @@ double stray(const Mesh<T>& a, const Track& track, double h) {
 // One plane between the hulls of the whole meshes, with room for the stray: the bodies are apart throughout the window, on their true
 // paths.
 template <class T>
-bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Window<T>& window, T gap, Vec3<T>& axis, Workspace<T>& w) {
+bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Window<T>& window, T gap, Vec3<T>& axis) {
   const Transform<T> start(window.start), end(window.end);
   const Mat3<T> back = start.r.transposed(), back_end = end.r.transposed();
+  const CloudView<T> hull_a = a.cloud.view(), hull_b = b.cloud.view();
+  static constexpr T zeros[lanes<T>] = {};
+  const CloudView<T> origin{zeros, zeros, zeros, lanes<T>};
   const auto least = [&](const Vec3<T>& v) {
-    const Vec3<T> p = start(a.cloud.least(back * v, w.scratch.data())), q = end(a.cloud.least(back_end * v, w.scratch.data()));
-    return (dot(v, p) < dot(v, q) ? p : q) - b.cloud.least(-v, w.scratch.data());
+    const Vec3<T> p = start(support(hull_a, origin, back * v)), q = end(support(hull_a, origin, back_end * v));
+    return (dot(v, p) < dot(v, q) ? p : q) + support(origin, hull_b, v);
   };
   return separated(axis, gap, least, 16);
 }
@@ -266,7 +270,6 @@ bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const 
   Counts& counts = answer.counts;
   const T scale = std::fmax(scale_of(a, b, Vec3<T>(window.start.p)), scale_of(a, b, Vec3<T>(window.end.p)));
   select_for(a, b, track, window, o, w, counts);
-  gather(b, w.b);
   list_vertices(a, w, w.a);
   if (o.both_vertices) list_vertices(b, w, w.b);
   if (o.edge_edge) list_edges(a, w, w.a), list_edges(b, w, w.b);
@@ -323,7 +326,7 @@ struct Sweep {
       if (swept_spheres_apart(a, b, track, x.t0, x.t1, slack(x))) return false;
     }
     const double away = tolerance < std::numeric_limits<double>::infinity() ? stray(a, track, x.t1 - x.t0) : 0;
-    if (away > 0 && away < a.radius && hulls_apart(a, b, x, T(away + slack(x)), axis, w)) return false;
+    if (away > 0 && away < a.radius && hulls_apart(a, b, x, T(away + slack(x)), axis)) return false;
     if (!(away > tolerance) || depth == 24) return sweep_window(a, b, track, x, first, o, w, answer);
     const double middle = (x.t0 + x.t1) / 2;
     const Transform<double> pose = track.at(middle);

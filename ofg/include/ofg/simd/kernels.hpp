@@ -20,15 +20,6 @@ struct Candidate {
   bool operator<(const Candidate& c) const { return distance < c.distance || (distance == c.distance && face < c.face); }
 };
 
-// Face centres in blocks of neighbours, each with a bounding box of its centres. Padding lies infinitely far away.
-template <class T>
-struct BlockView {
-  const T *x, *y, *z;
-  const int* face;
-  const T *lo[3], *hi[3];  // of the blocks
-  int faces, blocks;
-};
-
 template <class T>
 struct IntOf;
 template <>
@@ -40,12 +31,28 @@ struct IntOf<float> {
   using type = int;
 };
 
-// Room for `nearest`: as many entries as the mesh has padded faces, and some.
+// Face centres in blocks of neighbours, each with a bounding box of its centres. Padding lies infinitely far away.
+template <class T>
+struct BlockView {
+  const T *x, *y, *z;
+  const typename IntOf<T>::type* face;
+  const T *lo[3], *hi[3];  // of the blocks
+  int faces, blocks;
+};
+
+// Room for `nearest`, as for its `found`: as many entries as the mesh has padded faces, and some.
 template <class T>
 struct NearestScratch {
   T *bound, *distance;
   int* list;
   typename IntOf<T>::type* face;
+};
+
+// n points, a multiple of lanes.
+template <class T>
+struct CloudView {
+  const T *x, *y, *z;
+  int n;
 };
 
 template <class T>
@@ -61,8 +68,11 @@ struct BoxView {
 template <class T>
 struct Kernels {
   int (*nearest)(const BlockView<T>&, const T* point, int k, NearestScratch<T>&, Candidate<T>* found, int* evaluated);
-  T (*support)(const T* x, const T* y, const T* z, int n, const T* axis, T* product, int* at);
+  void (*support)(const CloudView<T>& a, const CloudView<T>& b, const T* axis, T* difference);
+  T (*farthest)(const T* x, const T* y, const T* z, int n, const T* point);
   void (*planes_apart)(const TriangleView<T>&, int n, const T* triangle, T slack, unsigned char* apart);
+  bool (*edges_apart)(const T* s, const T* t, T slack, T* best);
+  T (*planes_gap)(const TriangleView<T>&, const T* reach, int n, const CloudView<T>&, T* normal);
   void (*segments_miss)(const TriangleView<T>&, int n, const T* segment, T slack, unsigned char* miss);
   void (*boxes_apart)(const BoxView<T>&, int n, const T* box, T slack, unsigned char* apart);
   void (*transform)(T* x, T* y, T* z, int n, const T* rows, const T* shift);

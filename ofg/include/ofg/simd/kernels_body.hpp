@@ -35,6 +35,15 @@ OFG_INLINE typename Lane<T>::V all(T x) {
   return v + x;
 }
 
+template <class T>
+OFG_INLINE T least_lane(typename Lane<T>::V v) {
+  T half[OFG_BYTES / sizeof(T)];
+  __builtin_memcpy(half, &v, sizeof v);
+  for (int step = OFG_BYTES / int(sizeof(T)) / 2; step > 0; step /= 2)
+    for (int l = 0; l < step; ++l) half[l] = half[l + step] < half[l] ? half[l + step] : half[l];
+  return half[0];
+}
+
 // Squared distances from a point to n points, n a multiple of block_faces.
 template <class T>
 OFG_INLINE void distances(const T* x, const T* y, const T* z, int n, const T* p, T* out) {
@@ -69,13 +78,22 @@ OFG_INLINE void ranks(const T* d, const typename Lane<T>::Int* face, int n, int 
 // `found`; if it is more than most_ranked they are not sorted, and the caller must.
 template <class T>
 static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& s, Candidate<T>* found, int* evaluated) {
-  using Int = typename Lane<T>::Int;
+  using Int = typename IntOf<T>::type;
   constexpr int w = OFG_BYTES / int(sizeof(T));
+  if (b.blocks == 1) {
+    Int rank[block_faces];
+    T d[block_faces];
+    distances(b.x, b.y, b.z, block_faces, p, d);
+    ranks(d, b.face, block_faces, b.faces, rank);
+    for (int i = 0; i < b.faces; ++i)  // those beyond k are written where nobody looks
+      found[rank[i]].distance = d[i], found[rank[i]].face = int(b.face[i]);
+    *evaluated = b.faces;
+    return b.faces < k ? b.faces : k;
+  }
   T limit = __builtin_huge_valf();
-  int n = 0, listed = 1;
-  s.list[0] = 0;
-  *evaluated = b.blocks > 1 ? b.blocks : 0;
-  if (b.blocks > 1) {
+  int n = 0, listed = 0;
+  *evaluated = b.blocks;
+  {
     const auto px = all(p[0]), py = all(p[1]), pz = all(p[2]);
     int best = 0;
     T least = __builtin_huge_valf();
@@ -97,7 +115,6 @@ static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& 
     ranks(s.distance, order, block_faces, block_faces, rank);
     for (int i = 0; i < block_faces; ++i)
       if (rank[i] == k - 1) limit = s.distance[i];
-    listed = 0;
     for (int i = 0; i < b.blocks; ++i) {
       s.list[listed] = i;
       listed += s.bound[i] <= limit;
@@ -128,23 +145,54 @@ static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& 
   return n < k ? n : k;
 }
 
-// The point of n (a multiple of lanes) with the least product with an axis: the first of equals.
+// The least product of n points (a multiple of lanes) with an axis, and the first point that has it.
 template <class T>
-static T support(const T* x, const T* y, const T* z, int n, const T* axis, T* product, int* at) {
+OFG_INLINE T least_product(const T* x, const T* y, const T* z, int n, const T* axis, int* at) {
   constexpr int w = OFG_BYTES / int(sizeof(T));
+  using I = typename Lane<T>::I;
   const auto ax = all(axis[0]), ay = all(axis[1]), az = all(axis[2]);
-  auto low = all(T(__builtin_huge_valf()));
-  for (int i = 0; i < n; i += w) {
+  auto low = ax * load(x) + ay * load(y) + az * load(z);
+  I here = {}, where = {};
+  for (int i = w; i < n; i += w) {
     const auto v = ax * load(x + i) + ay * load(y + i) + az * load(z + i);
-    store(product + i, v);
+    here += w;
+    where = v < low ? here : where;
     low = v < low ? v : low;
   }
-  T least = low[0];
-  for (int l = 1; l < w; ++l) least = low[l] < least ? low[l] : least;
-  int i = 0;
-  while (i < n - 1 && !(product[i] == least)) ++i;
-  *at = i;
+  // Least of the lanes, then the first lane that has it.
+  const T least = least_lane<T>(low);
+  typename Lane<T>::Int first = 1 << 30;
+  for (int l = 0; l < w; ++l) {
+    const typename Lane<T>::Int i = low[l] == least ? where[l] + l : 1 << 30;
+    first = i < first ? i : first;
+  }
+  *at = int(first);
   return least;
+}
+
+// The point of cloud a less the point of cloud b that is least along an axis.
+template <class T>
+static void support(const CloudView<T>& a, const CloudView<T>& b, const T* axis, T* difference) {
+  const T back[3] = {-axis[0], -axis[1], -axis[2]};
+  int i, j;
+  least_product(a.x, a.y, a.z, a.n, axis, &i);
+  least_product(b.x, b.y, b.z, b.n, back, &j);
+  difference[0] = a.x[i] - b.x[j], difference[1] = a.y[i] - b.y[j], difference[2] = a.z[i] - b.z[j];
+}
+
+// The greatest squared distance of n points (a multiple of lanes) from a point.
+template <class T>
+static T farthest(const T* x, const T* y, const T* z, int n, const T* p) {
+  constexpr int w = OFG_BYTES / int(sizeof(T));
+  const auto px = all(p[0]), py = all(p[1]), pz = all(p[2]);
+  typename Lane<T>::V most = {};
+  for (int i = 0; i < n; i += w) {
+    const auto dx = load(x + i) - px, dy = load(y + i) - py, dz = load(z + i) - pz, d = dx * dx + dy * dy + dz * dz;
+    most = d > most ? d : most;
+  }
+  T far = most[0];
+  for (int l = 1; l < w; ++l) far = most[l] > far ? most[l] : far;
+  return far;
 }
 
 // Lambdas would not inherit the target of the region: plain functions do.
@@ -191,6 +239,69 @@ static void planes_apart(const TriangleView<T>& t, int n, const T* s, T slack, u
     const I r = (gap_along<T>(m, sa, sb, sc, b, c) > slack * sum_of_sizes<T>(m)) | (gap_along<T>(k, sa, sb, sc, b, c) > slack * sum_of_sizes<T>(k));
     for (int l = 0; l < w; ++l) apart[i + l] = r[l] != 0;
   }
+}
+
+// Are two triangles kept apart by a product of their edges or, in one plane, by the normal of an edge within it? The last fifteen axes
+// of triangles_meet, an axis a lane; s and t as there: relative to t's first corner. If so, `best` is the axis with the widest gap, from t
+// to s: it may keep more apart than these two.
+template <class T>
+static bool edges_apart(const T* s, const T* t, T slack, T* best) {
+  constexpr int w = OFG_BYTES / int(sizeof(T));
+  const T e[9] = {s[3] - s[0], s[4] - s[1], s[5] - s[2], s[6] - s[3], s[7] - s[4], s[8] - s[5], s[0] - s[6], s[1] - s[7], s[2] - s[8]};
+  const T f[9] = {t[3] - t[0], t[4] - t[1], t[5] - t[2], t[6] - t[3], t[7] - t[4], t[8] - t[5], t[0] - t[6], t[1] - t[7], t[2] - t[8]};
+  const T g[3] = {s[6] - s[0], s[7] - s[1], s[8] - s[2]}, h[3] = {t[6] - t[0], t[7] - t[1], t[8] - t[2]};
+  const T n[3] = {e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2], e[0] * g[1] - e[1] * g[0]};
+  const T m[3] = {f[1] * h[2] - f[2] * h[1], f[2] * h[0] - f[0] * h[2], f[0] * h[1] - f[1] * h[0]};
+  // The factors of each axis: nine e x f, three n x e, three m x f, and the first again to fill up.
+  alignas(64) T left[3][16], right[3][16];
+  for (int c = 0; c < 3; ++c) {
+    T *l = left[c], *r = right[c];
+    l[0] = l[1] = l[2] = l[15] = e[c], l[3] = l[4] = l[5] = e[3 + c], l[6] = l[7] = l[8] = e[6 + c];
+    r[0] = r[3] = r[6] = r[15] = f[c], r[1] = r[4] = r[7] = f[3 + c], r[2] = r[5] = r[8] = f[6 + c];
+    l[9] = l[10] = l[11] = n[c], r[9] = e[c], r[10] = e[3 + c], r[11] = e[6 + c];
+    l[12] = l[13] = l[14] = m[c], r[12] = f[c], r[13] = f[3 + c], r[14] = f[6 + c];
+  }
+  const Packed<T> sa{all(s[0]), all(s[1]), all(s[2])}, sb{all(s[3]), all(s[4]), all(s[5])}, sc{all(s[6]), all(s[7]), all(s[8])};
+  const Packed<T> tb{all(t[3]), all(t[4]), all(t[5])}, tc{all(t[6]), all(t[7]), all(t[8])};
+  alignas(64) T width[16];
+  for (int i = 0; i < 16; i += w) {
+    const Packed<T> axis = turned<T>({load(left[0] + i), load(left[1] + i), load(left[2] + i)}, {load(right[0] + i), load(right[1] + i), load(right[2] + i)});
+    const auto gap = gap_along<T>(axis, sa, sb, sc, tb, tc), size = sum_of_sizes<T>(axis);
+    const typename Lane<T>::I away = gap > slack * size;
+    const typename Lane<T>::V none = {};
+    store(width + i, away ? gap / size : none);
+    store(left[0] + i, axis.x), store(left[1] + i, axis.y), store(left[2] + i, axis.z);
+  }
+  int widest = -1;
+  T most = 0;
+  for (int l = 0; l < 16; ++l)
+    if (width[l] > most) most = width[l], widest = l;
+  if (widest < 0) return false;
+  const T sign = (left[0][widest] * (s[0] - t[0]) + left[1][widest] * (s[1] - t[1]) + left[2][widest] * (s[2] - t[2])) < 0 ? T(-1) : T(1);
+  for (int c = 0; c < 3; ++c) best[c] = sign * left[c][widest];
+  return true;
+}
+
+// How far the farthest-seeing of n face planes (a multiple of lanes) sees all of a cloud from its mesh: the greatest of (least product
+// with the cloud - reach) over the planes, by the sum of the sizes of the normal's components.
+template <class T>
+static T planes_gap(const TriangleView<T>& t, const T* reach, int n, const CloudView<T>& c, T* normal) {
+  constexpr int w = OFG_BYTES / int(sizeof(T));
+  T most = -__builtin_huge_valf();
+  for (int i = 0; i < n; i += w) {
+    const Packed<T> a{load(t.c[0] + i), load(t.c[1] + i), load(t.c[2] + i)};
+    const Packed<T> b{load(t.c[3] + i), load(t.c[4] + i), load(t.c[5] + i)}, d{load(t.c[6] + i), load(t.c[7] + i), load(t.c[8] + i)};
+    const Packed<T> m = turned<T>(minus<T>(b, a), minus<T>(d, a));
+    auto low = all(T(__builtin_huge_valf()));
+    for (int j = 0; j < c.n; ++j) {
+      const auto v = m.x * c.x[j] + m.y * c.y[j] + m.z * c.z[j];
+      low = v < low ? v : low;
+    }
+    const auto gap = (low - times<T>(m, a) - load(reach + i)) / sum_of_sizes<T>(m);
+    for (int l = 0; l < w; ++l)
+      if (gap[l] > most) most = gap[l], normal[0] = m.x[l], normal[1] = m.y[l], normal[2] = m.z[l];
+  }
+  return most;
 }
 
 // Which of n triangles the segment from s[0..2] to s[3..5] surely misses: the signs that segment_meets takes, with its roundings. A
@@ -249,7 +360,7 @@ static void transform(T* x, T* y, T* z, int n, const T* m, const T* p) {
 
 template <class T>
 Kernels<T> kernels() {
-  return {nearest<T>, support<T>, planes_apart<T>, segments_miss<T>, boxes_apart<T>, transform<T>};
+  return {nearest<T>, support<T>, farthest<T>, planes_apart<T>, edges_apart<T>, planes_gap<T>, segments_miss<T>, boxes_apart<T>, transform<T>};
 }
 
 #undef OFG_INLINE
