@@ -63,20 +63,27 @@ template <class T> Points<T> placed(const Scene<T>& s, const Vertices& B) {  // 
     return b;
 }
 
-template <class T> struct Placed {  // two point sets in a scene; x: A's at time t
+template <class T> struct Moving {  // A's points: r = R(q_A) v, and x at time `now`, kept for the next question at that time
+    Points<T> r, x;
+    double now = -1;
+};
+template <class T> struct Placed {  // two point sets in a scene
     const Scene<T>& scene;
+    Moving<T>& a;
     const Points<T>&r, &b;
-    Points<T> x;
-    double reach, now = -1;
-    Placed(const Scene<T>& s, const Points<T>& r, const Points<T>& b)
-        : scene(s), r(r), b(b), x(r.size()), reach(largest(r) + largest(b) + double(norm(s.d))) {}
+    double reach;  // of all coordinates
+    Placed(const Scene<T>& s, Moving<T>& a, const Points<T>& b, double reach) : scene(s), a(a), r(a.r), b(b), reach(reach) {}
     const Points<T>& at(double t) {
-        if (t == now) return x;
-        auto R = scene.turn(T(t));
+        if (t == a.now) return a.x;
+        a.x.resize(r.size());
         auto shift = scene.d * T(t);
-        for (size_t i = 0; i < r.size(); ++i) x[i] = R * r[i] + shift;
-        now = t;
-        return x;
+        if (scene.turns && t != 0) {
+            auto R = scene.turn(T(t));
+            for (size_t i = 0; i < r.size(); ++i) a.x[i] = R * r[i] + shift;
+        } else
+            for (size_t i = 0; i < r.size(); ++i) a.x[i] = r[i] + shift;
+        a.now = t;
+        return a.x;
     }
     double blur() const { return resolution<T>() * 64 * (1 + std::abs(double(scene.theta))) * reach; }
 };

@@ -6,7 +6,7 @@ namespace truth {
 
 // The least width |max n.a - min n.b| over the directions the polytope has tried; 0 if the sets do not overlap as far as T sees.
 // thin: gets the unit direction in which B is moved off A the soonest, reversed.
-template <class T> double depth(const Points<T>& A, const Points<T>& B, double reach, Effort& effort, vec<T>* thin = nullptr) {
+template <class T> double depth(const Points<T>& A, const Points<T>& B, double reach, Effort& effort, vec<T>* thin = nullptr, int rounds = 96) {
     struct Facet { int v[3]; vec<T> n; T far; bool live; };
     auto g = gjk<T>(A, B, B[0] - A[0], reach, 1e-3);
     if (g.status == Status::Unknown) {  // symmetric poses put the origin on a simplex: move B off by less than matters
@@ -31,7 +31,7 @@ template <class T> double depth(const Points<T>& A, const Points<T>& B, double r
     static const int corner[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
     for (auto& c : corner) out ? add(c[0], c[1], c[2]) : add(c[0], c[2], c[1]);
     std::vector<std::pair<int, int>> rim;
-    for (int round = 0; round < 96 && !effort.spent(); ++round) {
+    for (int round = 0; round < rounds && !effort.spent(); ++round) {
         int best = -1;
         for (int i = 0; i < int(facets.size()); ++i)
             if (facets[i].live && (best < 0 || facets[i].far < facets[best].far)) best = i;

@@ -124,9 +124,11 @@ class Prover {
     struct Stuck { int a, b; double t; };
     struct Cover { Tree tree; std::vector<Stuck> stuck; double until = 1, least = 1e300, at = 0; bool found = false; };
     struct Exact {  // one pair of tree nodes in double-double
-        Points<dd> r, b;
+        Moving<dd> a;
+        Points<dd> b;
         Placed<dd> placed;
-        Exact(const Prover& p, int na, int nb) : r(turned(p.sq_, p.A_.nodes[na].v)), b(truth::placed(p.sq_, p.B_.nodes[nb].v)), placed(p.sq_, r, b) {}
+        Exact(const Prover& p, int na, int nb)
+            : a{turned(p.sq_, p.A_.nodes[na].v), {}}, b(truth::placed(p.sq_, p.B_.nodes[nb].v)), placed(p.sq_, a, b, p.reach(na, nb)) {}
     };
 
     const Solid &A_, &B_;
@@ -135,16 +137,18 @@ class Prover {
     double theta_, blur_;
     int attempts_ = 0;  // pairs of elements in which a common point was sought and not found, at one instant
     Effort effort_;
-    std::vector<Points<double>> ra_, rb_;
+    std::vector<Moving<double>> ra_;
+    std::vector<Points<double>> rb_;
 
     bool single() const { return A_.elements.size() == 1 && B_.elements.size() == 1; }
     std::string why(std::string otherwise) const {
         return effort_.spent() ? "the effort limit of " + std::to_string((long long)effort_.limit) + " vertex visits ran out" : otherwise;
     }
+    double reach(int na, int nb) const { return A_.nodes[na].far + B_.nodes[nb].far + norm(sd_.dp) + norm(sd_.d); }
     Placed<double> quick(int na, int nb) {
-        if (ra_[na].empty()) ra_[na] = turned(sd_, A_.nodes[na].v);
+        if (ra_[na].r.empty()) ra_[na].r = turned(sd_, A_.nodes[na].v);
         if (rb_[nb].empty()) rb_[nb] = truth::placed(sd_, B_.nodes[nb].v);
-        return {sd_, ra_[na], rb_[nb]};
+        return {sd_, ra_[na], rb_[nb], reach(na, nb)};
     }
     bool leaf_pair(int na, int nb) const { return A_.nodes[na].left < 0 && B_.nodes[nb].left < 0; }
 
@@ -201,7 +205,7 @@ class Prover {
         auto draw = [&] { return double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 2147483648.0 - 0.5; };
         double ra, rb, r = room(x, ra, rb), step = r;
         vec<double> to_a = away_a, to_b = away_b;
-        for (int i = 0; i < 36 && step > 1e-2 * r && !effort_.spent(); ++i) {
+        for (int i = 0; i < 20 && step > 3e-2 * r && !effort_.spent(); ++i) {
             vec<double> u;
             if (i % 3 == 0) u = (to_a + to_b) * (std::min(step, 0.9 * r) / std::max(norm(to_a + to_b), 1e-3));
             else if (i % 3 == 1) u = ra < rb ? to_a * std::min(0.5 * (rb - ra) + 0.1 * step, 0.9 * r) : to_b * std::min(0.5 * (ra - rb) + 0.1 * step, 0.9 * r);
@@ -366,10 +370,17 @@ class Prover {
         if (B_.mesh) inward = inward - unit(cross(e.b[1] - e.b[0], e.b[2] - e.b[0]));
         if (!(norm(inward) > dd(1e-20))) return false;
         double reach = e.placed.reach;
-        for (auto& y : shared(x, e.b, reach)) {
-            for (double depth = 0.03 * std::min(A_.size, B_.size); depth > 1e-27 * reach; depth *= 0.02)
-                if (holds(y + inward * dd(depth), t, out)) return true;
-        }
+        for (auto& y : shared(na, nb, t, x, e.b, reach))
+            for (double depth = 0.03 * std::min(A_.size, B_.size); depth > 1e-27 * reach; depth *= 0.02) {
+                if (!holds(y + inward * dd(depth), t, out)) continue;
+                double inner = depth, outer = 50 * depth;  // half way through what both share: where the ball is to grow
+                for (int i = 0; i < 6; ++i) {
+                    double half = std::sqrt(inner * outer);
+                    (holds(y + inward * dd(half), t, out) ? inner : outer) = half;
+                }
+                holds(y + inward * dd(0.5 * inner), t, out);
+                return true;
+            }
         return false;
     }
     static vec<dd> unit(vec<dd> v) {
@@ -377,30 +388,36 @@ class Prover {
         return l > dd(0) ? v * (dd(1) / l) : v;
     }
     // Points common to two hulls and in the relative interior of both, if they cross.
-    std::vector<vec<dd>> shared(const Points<dd>& A, const Points<dd>& B, double reach) {
+    std::vector<vec<dd>> shared(int na, int nb, double t, const Points<dd>& A, const Points<dd>& B, double reach) {
+        std::vector<vec<dd>> found;
+        auto P = quick(na, nb);
+        for (auto& y : crossings<double>(P.at(t), P.b, reach, 1e-6)) found.push_back({dd(y.x), dd(y.y), dd(y.z)});
+        return found.empty() ? crossings<dd>(A, B, reach, 1e-25) : found;
+    }
+    template <class T> std::vector<vec<T>> crossings(const Points<T>& A, const Points<T>& B, double reach, double least) {
         unsigned long long seed = 7;
         auto draw = [&] { return 0.25 + double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 4294967296.0; };
-        auto shrink = [&](const Points<dd>& p, double eps) {
-            vec<dd> m;
+        auto shrink = [&](const Points<T>& p, double eps) {
+            vec<T> m;
             double total = 0;
             for (auto& v : p) {
                 double w = draw();
-                m = m + v * dd(w), total += w;
+                m = m + v * T(w), total += w;
             }
-            m = m * (dd(1) / dd(total));
-            Points<dd> out(p);
-            for (auto& v : out) v = v + (m - v) * dd(eps);
+            m = m * (T(1) / T(total));
+            Points<T> out(p);
+            for (auto& v : out) v = v + (m - v) * T(eps);
             return out;
         };
-        std::vector<vec<dd>> found;
-        for (double eps = 0.5; eps > 1e-25 && found.empty(); eps *= eps > 0.06 ? 0.25 : 0.03)
+        std::vector<vec<T>> found;
+        for (double eps = 0.5; eps > least && found.empty(); eps *= eps > 0.06 ? 0.25 : 0.03)
             for (int attempt = 0; attempt < 2; ++attempt) {
                 auto a = shrink(A, eps), b = shrink(B, eps);
-                effort_.done += 20.0 * double(a.size() + b.size());
-                auto g = gjk<dd>(a, b, b[0] - a[0], reach, 1e-3);
+                effort_.done += (std::is_same_v<T, double> ? 1.0 : 20.0) * double(a.size() + b.size());
+                auto g = gjk<T>(a, b, b[0] - a[0], reach, 1e-3);
                 if (g.status == Status::Apart) break;
                 if (g.status != Status::Meet) continue;
-                vec<dd> y;
+                vec<T> y;
                 for (int i = 0; i < 4; ++i) y = y + b[g.s[i].b] * g.w[i];
                 found.push_back(y);
             }

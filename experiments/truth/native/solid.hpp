@@ -6,7 +6,7 @@
 
 namespace truth {
 
-struct Node { int lo, hi, left = -1, right = -1; Vertices v; std::array<double, 3> centre; double radius; };
+struct Node { int lo, hi, left = -1, right = -1; Vertices v; std::array<double, 3> centre; double radius, far; };  // far: of a vertex from the origin
 
 class Solid {
   public:
@@ -88,7 +88,7 @@ class Solid {
             p.push_back({double(w.x), double(w.y), double(w.z)});
         }
         Effort free{0, 1e300};
-        return depth(o, p, largest(p), free, &away);
+        return depth(o, p, largest(p), free, &away, 12);
     }
     void finish() {
         order.resize(elements.size());
@@ -126,7 +126,8 @@ class Solid {
             if (high[c] - low[c] > high[axis] - low[axis]) axis = c;
         }
         for (auto& v : n.v) r = std::max(r, std::hypot(v[0] - n.centre[0], v[1] - n.centre[1], v[2] - n.centre[2]));
-        n.radius = r;
+        n.radius = r, n.far = 0;
+        for (auto& v : n.v) n.far = std::max(n.far, std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
         if (hi - lo > 1) {
             int mid = (lo + hi) / 2;
             std::nth_element(order.begin() + lo, order.begin() + mid, order.begin() + hi, [&](int a, int b) {
