@@ -28,9 +28,7 @@ def decompose(body: Body, *, threshold: float = 0.05, max_pieces: int = -1, seed
         return body
     if not 0.01 <= threshold <= 1:
         raise ValueError(f"threshold = {threshold} must lie in [0.01, 1]: CoACD's concavity, small for many pieces.")
-    parameters = {"threshold": threshold, "max_pieces": max_pieces, "seed": seed, "thin": thin, "coacd": _coacd_version()}
-    key = hashlib.sha256((body.digest + json.dumps(parameters, sort_keys=True)).encode()).hexdigest()[:24]
-    path = cache_folder() / f"pieces-{key}.npz"
+    path = kept_at(body, threshold=threshold, max_pieces=max_pieces, seed=seed, thin=thin)
     hulls = _load(path)
     if hulls is None:
         hulls = _coacd(body, threshold, max_pieces, seed)
@@ -39,6 +37,13 @@ def decompose(body: Body, *, threshold: float = 0.05, max_pieces: int = -1, seed
         _store(path, hulls)
     pieces = [Body.convex(v, f"{body.name}#{i}") for i, v in enumerate(hulls)]
     return Body.union(pieces, body.name)
+
+
+def kept_at(body: Body, *, threshold: float = 0.05, max_pieces: int = -1, seed: int = 0, thin: int = 0) -> Path:
+    """Where `decompose` with the same arguments keeps its result; the file exists once it was asked for."""
+    parameters = {"threshold": threshold, "max_pieces": max_pieces, "seed": seed, "thin": thin, "coacd": _coacd_version()}
+    key = hashlib.sha256((body.digest + json.dumps(parameters, sort_keys=True)).encode()).hexdigest()[:24]
+    return cache_folder() / f"pieces-{key}.npz"
 
 
 def cache_folder() -> Path:

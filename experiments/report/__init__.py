@@ -10,4 +10,4 @@ def report(store: Store) -> None:
     from . import page, payload
 
     made = payload.of_run(store)
-    store.write_text(page.page(made, f"{made['run']['name']}: collision detection, certified"), "report.html")
+    store.write_text(page.page(made, f"{made['run']['title']}: collision detection, certified"), "report.html")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import pandas as pd
 
 from ofg import QUESTIONS
@@ -12,12 +14,17 @@ from ..timing import SIZES
 COLUMNS = {"misses": "miss", "tunnelled": "tunnelled", "false alarms": "false alarm", "in margin": "conservative", "answered": "answered",
            "times": "timed", "median |error|": "timed", "latest": "late", "late": "late", "earliest": "early", "early": "early"}
 LABELS = {"cases": None, "hit": "hit", "clear": "clear", "uncertain": "uncertain"}
+#: value of a table that an experiment asked for -> kind of the rows that it is over
+VALUES = {"misses": "judged hit", "false alarms": "judged clear", "wrong": "judged", "tunnelled": "can tunnel", "answered": "asked", "time error": "timed",
+          "latest": "timed", "earliest": "timed", "net time": "clocked", "gross time": "clocked", "build time": "clocked", "ratio": "clocked"}
 LABELLED = ("right", "miss", "false alarm", "conservative")
 
 
 def links(table, found: pd.DataFrame) -> list[list[dict | None]]:
-    """A link, or None, for each cell of table.text. Keys of a link, all optional: method, question, scenario, scenarios, level, band, sizes,
-    situation, label, detail (its beginning), kind (see KINDS)."""
+    """A link, or None, for each cell of table.text. Keys of a link, all optional: method, question, scenario, level, band, sizes, situation, label;
+    scenarios, levels (any of them); tag ([name, values], any of them); detail (its beginning); kind (see `kinds`)."""
+    if table.choice:
+        return _chosen(table, found)
     scenarios, bands = set(found.scenario), set(_bands(found))
     text, place = table.text, {}
     for question in QUESTIONS:
@@ -32,6 +39,27 @@ def links(table, found: pd.DataFrame) -> list[list[dict | None]]:
     for row in text.to_dict("records"):
         made.append([_link(table.name, str(column), str(value), row, place, scenarios, bands) for column, value in row.items()])
     return made
+
+
+def _chosen(table, found: pd.DataFrame) -> list[list[dict | None]]:
+    """Links of a table that an experiment asked for: a row per method, a column per value of its choice."""
+    choice = table.choice
+    place = {"kind": VALUES[choice.value], **({"question": choice.question} if choice.question else {}), **({"scenarios": list(choice.scenarios)} if choice.scenarios else {})}
+    columns = {str(column): _values(choice.columns, str(column), found) for column in table.text.columns[1:]}
+    return [[None, *({"method": row[0], **place, **columns[str(c)]} if value != "-" and columns[str(c)] else None for c, value in zip(table.text.columns[1:], row[1:]))]
+            for row in table.text.astype(str).values.tolist()]
+
+
+def _values(name: str, column: str, found: pd.DataFrame) -> dict | None:
+    """The condition that a column of such a table stands for; tables.py prints numbers with six digits."""
+    if name in ("scenario", "question", "situation", "band"):
+        return {name: column}
+    if name == "faces":
+        return {"sizes": column}
+    if name == "level":
+        return {"levels": [v for v in sorted(found.level.unique()) if f"{v:g}" == column]}
+    known = {json.loads(text).get(name) for text in found.tags.unique()} - {None}
+    return {"tag": [name, sorted(v for v in known if v == column or (not isinstance(v, str) and f"{v:g}" == column))]}
 
 
 def _link(name, column, value, row, place, scenarios, bands) -> dict | None:
@@ -63,16 +91,20 @@ def select(found: pd.DataFrame, link: dict, clocked: set[tuple[str, str]] = froz
     for key in ("method", "question", "scenario", "level", "band", "sizes", "situation", "label"):
         if key in link:
             keep &= found[key] == link[key]
-    if "scenarios" in link:
-        keep &= found.scenario.isin(link["scenarios"])
+    for key, column in (("scenarios", "scenario"), ("levels", "level")):
+        if key in link:
+            keep &= found[column].isin(link[key])
+    if "tag" in link:
+        name, values = link["tag"]
+        keep &= found.tags.map({text: json.loads(text).get(name) in values for text in found.tags.unique()})
     if "detail" in link:
         keep &= found.detail.fillna("").str.startswith(link["detail"])
     return found[keep & kinds(found, link.get("kind", "all"), clocked)]
 
 
 def kinds(found: pd.DataFrame, kind: str, clocked=frozenset()) -> pd.Series:
-    """KINDS: an outcome; "tunnelled", "wrong", "judged" (in the rates), "judged hit", "answered", "timed" (has an error of its time), "late",
-    "early", "clocked", "all"."""
+    """An outcome; "tunnelled", "wrong"; what rates are over: "judged", "judged hit", "judged clear", "can tunnel", "asked", "answered"; "timed" (has an
+    error of its time), "late", "early"; "clocked" (timed by the clock); "all"."""
     if kind == "all":
         return pd.Series(True, found.index)
     if kind == "wrong":
@@ -81,6 +113,12 @@ def kinds(found: pd.DataFrame, kind: str, clocked=frozenset()) -> pd.Series:
         return found.outcome.isin(LABELLED)
     if kind == "judged hit":
         return found.outcome.isin(LABELLED) & (found.label == "hit")
+    if kind == "judged clear":
+        return found.outcome.isin(LABELLED) & (found.label == "clear")
+    if kind == "can tunnel":
+        return found.can_tunnel
+    if kind == "asked":
+        return ~found.detail.fillna("").str.startswith("does not answer")
     if kind == "answered":
         return found.status == "ok"
     if kind == "timed":

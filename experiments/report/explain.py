@@ -91,7 +91,7 @@ def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
     load_files(config)
     rows: list[dict] = []
     tasks = []
-    for method in (m for spec in config.methods for m in registry.make(spec)):
+    for method in (m for spec in config.asked for m in registry.make(spec)):
         def lost(case, status, detail, label=method.label):
             return answering._row(case, label, status, detail=detail)
         tasks.append(pool.Task(answering._open, (method.label, config), [explained.case], rows.extend, lost))
@@ -110,12 +110,12 @@ def command(name, run_, file, out, save_to, anew, methods, method_files, print_g
         store = Store(run_)
         config = store.config
         load_files(config)
-        found, versions, known = from_run(store, name), json.loads(store.path("manifest.json").read_text())["versions"], config.methods
+        found, versions, known = from_run(store, name), json.loads(store.path("manifest.json").read_text())["versions"], config.asked
     else:
         found, versions = from_file(file), {}
         known = tuple(found.said.method)
         config = RunConfig(seed=0, methods=known or ("ofg",), scenarios=[{"name": found.case.scenario, "cases": 1}])
-    config = config.model_copy(update={"methods": tuple(methods) or known or load("quick").methods, "method_files": config.method_files + method_files})
+    config = config.model_copy(update={"methods": tuple(methods) or known or load("quick").methods, "optional_methods": (), "method_files": config.method_files + method_files})
     if anew or not len(found.said):
         with tempfile.TemporaryDirectory() as folder:
             found = ask(found, config, Path(folder, "workers.log"))

@@ -14,6 +14,7 @@ import pandas as pd
 import ofg
 from baselines import registry
 from ofg import Body, Query
+from ofg.decomposition import kept_at
 
 from .. import metrics, scenarios, tables
 from ..rows import cases_of
@@ -26,6 +27,7 @@ CODES = {"right": "r", "miss": "m", "false alarm": "f", "conservative": "c", "no
 SHOWN = 24  # cases of each kind that the gallery can draw for each method
 BYTES = 8_000_000  # of bodies, before compression: what a page may weigh
 EXACT = 5_000  # vertices up to which a body is never rounded
+NATIVE = {"apart": ("overlap", "apart"), "overlapping": ("overlap", "deep"), "flight": ("translation", "hit")}  # of experiments/native.py: ours
 OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
 
@@ -37,7 +39,7 @@ def of_run(store: Store) -> dict:
         "bands": tables.gap_bands(pd.Series([], dtype=float))[1], "scenarios": _scenarios(rows), **_observations(found, rows),
     }
     made["methods"] = [_method(label, made["run"]["versions"]) for label in made["labels"]]
-    made["lanes"] = _lanes(store, rows) if store.has("timings.parquet") else {}
+    made["lanes"] = {**(_lanes(store, rows) if store.has("timings.parquet") else {}), **_native(store, set(made["labels"]))}
     made["tables"] = [_table(t, found) for t in tables.build(store)]
     return {**made, **_shapes(store, rows, found)}
 
@@ -50,7 +52,7 @@ def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict) 
             "sizes": [name for _, name in SIZES], "bands": tables.gap_bands(pd.Series([], dtype=float))[1], "scenarios": _scenarios(rows),
             "lanes": {}, "tables": [], **_observations(found, rows)}
     made["methods"] = [_method(label, versions) for label in made["labels"]]
-    shapes = Shapes(float("inf"))
+    shapes = Shapes(float("inf"), anew=True)
     shapes.add(0, case, truth, [label for label in made["labels"] if label.split()[0] == "ofg"], 20 * SHOWN)
     return {**made, **shapes.packed()}
 
@@ -67,7 +69,7 @@ def pack(content: bytes) -> str:
 def _run(store: Store) -> dict:
     manifest = json.loads(store.path("manifest.json").read_text())
     noise = metrics.noise(store) if store.has("timings.parquet") else math.nan
-    return {"name": store.folder.resolve().name, "about": store.config.about, "noise": noise, "config": json.loads(store.config.model_dump_json()), **manifest}
+    return {"name": store.folder.resolve().name, "title": store.config.title or store.folder.resolve().name, "about": store.config.about, "noise": noise, "config": json.loads(store.config.model_dump_json()), **manifest}
 
 
 def _cases(rows: pd.DataFrame) -> dict:
@@ -142,6 +144,19 @@ def _lanes(store: Store, rows: pd.DataFrame) -> dict:
     return lanes
 
 
+def _native(store: Store, labels: set[str]) -> dict:
+    """The native lane of a run that has a native.csv (python -m experiments.native --out RUN): it times pairs of its own of given sizes, so no case
+    of the run stands behind it."""
+    if not store.has("native.csv"):
+        return {}
+    lane: dict[str, dict] = {}
+    times = pd.read_csv(store.path("native.csv"))
+    times = times.assign(sizes=size_of(times.faces))
+    for row in times[times.method.isin(labels) & times.native.notna() & times.situation.isin(NATIVE)].itertuples():
+        lane.setdefault(row.method, {"cases": [], "bins": []})["bins"].append([*NATIVE[row.situation], row.sizes, row.native])
+    return {"native": lane} if lane else {}
+
+
 def _table(table, found: pd.DataFrame) -> dict:
     from .cells import links
 
@@ -181,8 +196,9 @@ def _spread(part: pd.DataFrame) -> pd.DataFrame:
 class Shapes:
     """Collects bodies (each once), certificates and selections until `room` bytes are full."""
 
-    def __init__(self, room: float):
-        self.room, self.bytes = room, bytearray()
+    def __init__(self, room: float, anew: bool = False):
+        """anew: meshes may be decomposed, which can take a minute each; else OFG's pieces are shown where they are kept from the run."""
+        self.room, self.anew, self.bytes = room, anew, bytearray()
         self.bodies, self.drawn, self.proofs, self.ofg = [], {}, {}, {}
         self._known: dict[str, int] = {}
 
@@ -202,10 +218,12 @@ class Shapes:
         return {"bodies": self.bodies, "drawn": self.drawn, "proofs": self.proofs, "ofg": self.ofg, "bytes": bytes(self.bytes)}
 
     def _trace(self, query: Query, label: str, truth) -> dict | None:
-        """What OFG looked at; None where the method refuses the query. "bodies" where it saw pieces of a mesh."""
+        """What OFG looked at; None where the method refuses the query or its pieces are not kept. "bodies" where it saw pieces of a mesh."""
         (method,) = registry.make(label)
         options = {**method._options()}
         if options.get("concave") != "undivided":
+            if not self.anew and not all(body.kind != "mesh" or kept_at(body).is_file() for body in (query.a, query.b)):
+                return None
             try:
                 pieces = [ofg.decompose(query.a), ofg.decompose(query.b)]
             except ofg.BodyError:

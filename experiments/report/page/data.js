@@ -57,6 +57,7 @@ const KINDS = {
   wrong: (x) => x === "m" || x === "f",
   judged: (x) => JUDGED.has(x),
   "judged hit": (x, i) => JUDGED.has(x) && D.cases.label[i] === "hit",
+  asked: (x, i, m) => !(D.details[D.detail[m].get(i)] || "").startsWith("does not answer"),
   "judged clear": (x, i) => JUDGED.has(x) && D.cases.label[i] === "clear",
   "can tunnel": (x, i) => ANSWERED.has(x) && D.canTunnel[i],
   answered: (x) => ANSWERED.has(x),
@@ -70,7 +71,7 @@ const KINDS = {
   unsupported: (x) => x === "u", error: (x) => x === "e", timeout: (x) => x === "t",
 };
 const KIND_WORDS = {
-  all: "all cases", wrong: "wrong answers", judged: "judged", "judged hit": "judged hits", "judged clear": "judged clears", answered: "answered", failed: "crashed or hung",
+  all: "all cases", asked: "asked", wrong: "wrong answers", judged: "judged", "judged hit": "judged hits", "judged clear": "judged clears", answered: "answered", failed: "crashed or hung",
   tunnelled: "tunnelled", timed: "times of impact", late: "late times", early: "early times", clocked: "timed by the clock", miss: "misses", "can tunnel": "can tunnel",
   "false alarm": "false alarms", conservative: "hits within the margin", right: "right", "no label": "no certified label", unsupported: "not supported", error: "errors", timeout: "timeouts",
 };
@@ -95,7 +96,8 @@ function casesOf(link, among) {
     const i = among ? among[j] : j;
     if (!wanted.every(([key, column]) => c[column][i] === link[key])) continue;
     if (link.scenarios && !link.scenarios.includes(c.scenario[i])) continue;
-    if (link.tag && String(c.tags[i][link.tag[0]]) !== link.tag[1]) continue;
+    if (link.levels && !link.levels.includes(c.level[i])) continue;
+    if (link.tag && !link.tag[1].includes(c.tags[i][link.tag[0]])) continue;
     if (m >= 0) {
       const letter = D.outcome[m][i];
       if (letter === "." || !test(letter, i, m)) continue;
@@ -152,6 +154,10 @@ function median(values) {
 function cost(m, lane, among) {
   const timed = D.lanes[lane]?.[D.labels[m]];
   if (!timed) return null;
+  if (timed.bins) { // the native lane: pairs of its own, already net
+    const kept = timed.bins.filter(([q, s, f]) => q === F.question && (!F.sizes || f === F.sizes) && (!F.situation || s === F.situation)).map((b) => b[3]);
+    return kept.length ? { n: kept.length, bins: true, gross: median(kept), net: median(kept), low: Math.min(...kept), high: Math.max(...kept), floor: 0 } : null;
+  }
   const c = D.cases, keep = new Set(among), ns = [], bins = new Set();
   timed.cases.forEach((i, j) => {
     if (!keep.has(i)) return;

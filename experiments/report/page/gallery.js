@@ -4,6 +4,8 @@ const G = { method: "", kind: "", more: {}, shown: PAGE, list: [] };
 const GALLERY_KINDS = ["miss", "tunnelled", "false alarm", "late", "early", "conservative", "failed", "wrong", "right", "all"];
 
 function openCases(to) {
+  const questions = new Set(casesOf(to).map((i) => D.cases.question[i]));
+  if (!to.question && questions.size === 1) to = { ...to, question: [...questions][0] };
   if (to.question && to.question !== F.question) refilter({ question: to.question, sizes: "", situation: "", band: "", scenario: "" });
   const { method = "", kind = "all", ...more } = to;
   Object.assign(G, { method, kind, more: Object.fromEntries(Object.entries(more).filter(([, v]) => v !== "")), shown: PAGE, fixed: true });
@@ -26,7 +28,7 @@ function drawGallery() {
   else G.list = spread(G.list);
   const change = (changes) => { Object.assign(G, { shown: PAGE }, changes); drawGallery(); };
   const labels = G.method && !answering.includes(G.method) ? [G.method, ...answering] : answering;
-  const chips = Object.entries(G.more).filter(([k]) => k !== "question").map(([k, v]) => el("button", { type: "button", class: "chip", title: "remove this condition", onclick: () => { const more = { ...G.more }; delete more[k]; change({ more, fixed: true }); } }, `${{ sizes: "faces", band: "gap / size", tag: "" }[k] ?? k} ${Array.isArray(v) ? v.join(": ") : v} ×`));
+  const chips = Object.entries(G.more).filter(([k]) => k !== "question").map(([k, v]) => el("button", { type: "button", class: "chip", title: "remove this condition", onclick: () => { const more = { ...G.more }; delete more[k]; change({ more, fixed: true }); } }, `${{ sizes: "faces", band: "gap / size", tag: "" }[k] ?? k} ${k === "tag" ? `${v[0]}: ${v[1].join(", ")}` : Array.isArray(v) ? v.join(", ") : v} ×`));
   const box = document.getElementById("gallery"), focus = document.activeElement?.dataset?.name;
   box.replaceChildren(...[
     el("div", { class: "controls" }, select("Method", [["", "any"], ...labels.map((l) => [l, l])], G.method, (v) => change({ method: v, kind: v ? G.kind : "all" })),

@@ -8,7 +8,7 @@ function head() {
     [r.noise === null ? "–" : percent(r.noise), r.noise > 0.25 ? "timing noise: disturbed" : "timing noise"]];
   return el("header", { class: "top" },
     el("div", { class: "bar-top" }, el("strong", {}, "ofg-bench"), el("nav", { "aria-label": "Sections" }, [["board", "Leaderboard"], ["speed", "Accuracy and speed"], ["by", "By difficulty"], ["cases", "Gallery"], ["tables", "Tables"], ["run", "What was run"]].map(([id, t]) => el("a", { href: `#${id}` }, t))), themeButton()),
-    el("h1", {}, r.name), el("p", { class: "intro" }, r.about),
+    el("h1", {}, r.title), el("p", { class: "intro" }, r.about),
     el("p", { class: "intro" }, "Every label is certified: a proof of each answer is stored with its case and was checked by a program that knows no engine. A ", el("b", {}, "miss"), " is a certified hit answered clear, a ", el("b", {}, "false alarm"), " a certified clear answered hit. Every figure below opens the cases behind it."),
     el("ul", { class: "tiles" }, tiles.map(([n, t]) => el("li", {}, el("b", {}, String(n)), el("span", {}, t)))));
 }

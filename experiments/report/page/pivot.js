@@ -9,7 +9,7 @@ const WHAT = {
 
 function pivotColumns() {
   const c = D.cases, groups = new Map();
-  const key = (i) => (across === "level" ? c.level[i] : across.startsWith("tag:") ? (c.tags[i][across.slice(4)] === undefined ? null : String(c.tags[i][across.slice(4)])) : c[across][i]);
+  const key = (i) => (across.startsWith("tag:") ? c.tags[i][across.slice(4)] : c[across][i]);
   for (const i of subset) {
     const k = key(i);
     if (k === null || k === undefined) continue;
@@ -19,7 +19,7 @@ function pivotColumns() {
   const order = { sizes: D.sizes, band: D.bands }[across];
   const names = [...groups.keys()];
   if (order) names.sort((a, b) => order.indexOf(a) - order.indexOf(b));
-  return names.map((name) => ({ name, cases: groups.get(name), link: across.startsWith("tag:") ? { tag: [across.slice(4), String(name)] } : { [across]: name } }));
+  return names.map((name) => ({ name, cases: groups.get(name), link: across.startsWith("tag:") ? { tag: [across.slice(4), [name]] } : { [across]: name } }));
 }
 
 function drawPivot() {

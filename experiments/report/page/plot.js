@@ -47,7 +47,7 @@ async function drawPlot() {
       marker: { symbol: points.map((p) => symbol + (p.whole ? "" : "-open")), size: 9, color: shade, line: { color: shade, width: 1.5 } },
       text: points.map((p) => p.label.split(" ").slice(1).join(" ")), textposition: "top right", textfont: { size: 10, color: ink },
       error_y: { type: "data", symmetric: false, array: points.map((p) => squash(p.ci[1]) - squash(p.rate)), arrayminus: points.map((p) => squash(p.rate) - squash(p.ci[0])), color: shade, thickness: 0.8, width: 2 },
-      hovertext: points.map((p) => `<b>${p.label}</b><br>${measure} ${p.count}/${p.total} (${interval(p.ci)})<br>net ${microseconds(p.cost.net)} µs, gross ${microseconds(p.cost.gross)} µs over ${p.cost.n} cases<br>${p.whole ? "answers all of these cases" : `answers ${p.r.answered} of ${p.r.asked}`}`),
+      hovertext: points.map((p) => `<b>${p.label}</b><br>${measure} ${p.count}/${p.total} (${interval(p.ci)})<br>net ${microseconds(p.cost.net)} µs, gross ${microseconds(p.cost.gross)} µs over ${p.cost.n} ${p.cost.bins ? "bins of pairs of the native lane" : "cases"}<br>${p.whole ? "answers all of these cases" : `answers ${p.r.answered} of ${p.r.asked}`}`),
       hoverinfo: "text",
     });
   }
@@ -66,7 +66,7 @@ async function drawPlot() {
     box.dataset.listens = "yes";
     box.on("plotly_click", ({ points: [p] }) => { if (p?.customdata) openCases({ ...here(), method: p.customdata, kind: MEASURES[measure].kind }); });
   }
-  words.textContent = `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: answers only part of them, and is not on the Pareto front. At ≤ 0.05: no dearer than the method's own floor. Whiskers: 95 % Wilson intervals. A click on a point shows the cases behind it; the leaderboard above holds the same figures.`;
+  words.textContent = (F.lane === "native" ? "Native times are of the libraries in one C++ loop, on pairs of their own of these sizes (experiments/native.py); rates are of this run's cases. " : "") + `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: answers only part of them, and is not on the Pareto front. At ≤ 0.05: no dearer than the method's own floor. Whiskers: 95 % Wilson intervals. A click on a point shows the cases behind it; the leaderboard above holds the same figures.`;
 }
 
 const here = () => ({ question: F.question, sizes: F.sizes, situation: F.situation, band: F.band, scenario: F.scenario });
