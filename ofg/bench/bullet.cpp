@@ -1,12 +1,14 @@
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include "bench.hpp"
 
-// Its two distance solvers on hulls without margin, and without the penetration depth, which overlap does not need.
+// Its two distance solvers on hulls without margin. The pair detector needs its penetration solver: without it 3 to 30 % of shallow
+// overlaps come out as distances.
 std::vector<Timed> bullet_methods(const Cell& cell) {
   const auto shape = [](const Hull& h) {
     auto s = std::make_shared<btConvexHullShape>();
@@ -25,9 +27,10 @@ std::vector<Timed> bullet_methods(const Cell& cell) {
   return {{"Bullet GjkPair",
            [=](const Cell&) {
              btVoronoiSimplexSolver simplex;
+             btGjkEpaPenetrationDepthSolver depth;
              long hits = 0;
              for (std::size_t i = 0; i < poses->size(); i += 2) {
-               btGjkPairDetector detector(a.get(), b.get(), &simplex, nullptr);
+               btGjkPairDetector detector(a.get(), b.get(), &simplex, &depth);
                btGjkPairDetector::ClosestPointInput input;
                input.m_transformA = (*poses)[i], input.m_transformB = (*poses)[i + 1];
                btPointCollector out;

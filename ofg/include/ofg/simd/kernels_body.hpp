@@ -55,22 +55,44 @@ OFG_INLINE void distances(const T* x, const T* y, const T* z, int n, const T* p,
   }
 }
 
-// Position of each of n in the order by (distance, face); n a multiple of the width.
+// Position of each of n in the order by distance, and of equals by face; n padded to whole registers.
 template <class T>
-OFG_INLINE void ranks(const T* d, const typename Lane<T>::Int* face, int n, int used, typename Lane<T>::Int* rank) {
+OFG_INLINE void ranks(const T* d, const typename IntOf<T>::type* face, int n, typename IntOf<T>::type* rank) {
   constexpr int w = OFG_BYTES / int(sizeof(T));
   using I = typename Lane<T>::I;
+  int sum = 0;
   for (int i = 0; i < n; i += w) {
     const auto di = load(d + i);
-    I fi, r = {};
+    I r = {};
+    for (int j = 0; j < n; ++j) r -= all(d[j]) < di;
+    __builtin_memcpy(rank + i, &r, sizeof r);
+    for (int l = 0; l < w; ++l) sum += i + l < n ? int(r[l]) : 0;
+  }
+  if (2 * sum == n * (n - 1)) return;  // no two are equal
+  for (int i = 0; i < n; i += w) {
+    const auto di = load(d + i);
+    I fi, r;
     __builtin_memcpy(&fi, face + i, sizeof fi);
-    for (int j = 0; j < used; ++j) {
-      const auto dj = all(d[j]);
-      const I fj = I{} + face[j];
-      r -= (dj < di) | ((dj == di) & (fj < fi));
-    }
+    __builtin_memcpy(&r, rank + i, sizeof r);
+    for (int j = 0; j < n; ++j) r -= (all(d[j]) == di) & ((I{} + face[j]) < fi);
     __builtin_memcpy(rank + i, &r, sizeof r);
   }
+}
+
+// The k-th smallest of the distances in a block.
+template <class T>
+OFG_INLINE T kth(const T* d, int k) {
+  constexpr int w = OFG_BYTES / int(sizeof(T));
+  using I = typename Lane<T>::I;
+  auto best = all(T(__builtin_huge_valf()));
+  for (int i = 0; i < block_faces; i += w) {
+    const auto di = load(d + i);
+    I r = {};
+    for (int j = 0; j < block_faces; ++j) r -= all(d[j]) <= di;
+    const auto enough = r >= (I{} + k) ? di : all(T(__builtin_huge_valf()));
+    best = enough < best ? enough : best;
+  }
+  return least_lane<T>(best);
 }
 
 // The k <= block_faces nearest faces to a point, nearest first, equal distances in the order of the faces. Blocks of faces whose
@@ -84,7 +106,7 @@ static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& 
     Int rank[block_faces];
     T d[block_faces];
     distances(b.x, b.y, b.z, block_faces, p, d);
-    ranks(d, b.face, block_faces, b.faces, rank);
+    ranks(d, b.face, b.faces, rank);
     for (int i = 0; i < b.faces; ++i)  // those beyond k are written where nobody looks
       found[rank[i]].distance = d[i], found[rank[i]].face = int(b.face[i]);
     *evaluated = b.faces;
@@ -96,7 +118,7 @@ static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& 
   {
     const auto px = all(p[0]), py = all(p[1]), pz = all(p[2]);
     int best = 0;
-    T least = __builtin_huge_valf();
+    auto low = all(T(__builtin_huge_valf()));
     // Squared distance to the block's box. Each rounding is monotone, so it never exceeds that of a centre in the box.
     const typename Lane<T>::V zero = {};
     for (int i = 0; i < b.blocks; i += w) {
@@ -105,16 +127,14 @@ static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& 
       auto dz = load(b.lo[2] + i) - pz, ez = pz - load(b.hi[2] + i);
       dx = dx > ex ? dx : ex, dy = dy > ey ? dy : ey, dz = dz > ez ? dz : ez;
       dx = dx > zero ? dx : zero, dy = dy > zero ? dy : zero, dz = dz > zero ? dz : zero;
-      store(s.bound + i, dx * dx + dy * dy + dz * dz);
+      const auto bound = dx * dx + dy * dy + dz * dz;
+      low = bound < low ? bound : low;
+      store(s.bound + i, bound);
     }
-    for (int i = 0; i < b.blocks; ++i)
-      if (s.bound[i] < least) least = s.bound[i], best = i;
-    Int rank[block_faces], order[block_faces];
-    for (int i = 0; i < block_faces; ++i) order[i] = i;
+    const T least = least_lane<T>(low);
+    while (!(s.bound[best] == least)) ++best;
     distances(b.x + best * block_faces, b.y + best * block_faces, b.z + best * block_faces, block_faces, p, s.distance);
-    ranks(s.distance, order, block_faces, block_faces, rank);
-    for (int i = 0; i < block_faces; ++i)
-      if (rank[i] == k - 1) limit = s.distance[i];
+    limit = kth(s.distance, k);
     for (int i = 0; i < b.blocks; ++i) {
       s.list[listed] = i;
       listed += s.bound[i] <= limit;
@@ -136,12 +156,11 @@ static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& 
     for (int i = 0; i < n; ++i) found[i].distance = s.distance[i], found[i].face = int(s.face[i]);
     return n;
   }
-  const int padded = (n + w - 1) / w * w;
-  for (int i = n; i < padded; ++i) s.distance[i] = __builtin_huge_valf(), s.face[i] = 0;
+  for (int i = n; i < n + w; ++i) s.distance[i] = __builtin_huge_valf(), s.face[i] = 0;
   Int rank[most_ranked + block_faces];
-  ranks(s.distance, s.face, padded, n, rank);
-  for (int i = 0; i < n; ++i)
-    if (rank[i] < k) found[rank[i]].distance = s.distance[i], found[rank[i]].face = int(s.face[i]);
+  ranks(s.distance, s.face, n, rank);
+  for (int i = 0; i < n; ++i)  // those beyond k are written where nobody looks
+    found[rank[i]].distance = s.distance[i], found[rank[i]].face = int(s.face[i]);
   return n < k ? n : k;
 }
 
