@@ -127,7 +127,9 @@ def clear(pair, cert, start, end, gap):
     for key, body in (("order_a", pair.a), ("order_b", pair.b)):
         order = cert.get(key)
         count = len(elements(body))
-        require(order is None or sorted(order) == list(range(count)), f"{key} is no permutation of the elements")
+        if order is not None:
+            order = np.array(order, dtype=np.int64)
+            require(order.shape == (count,) and (np.sort(order) == np.arange(count)).all(), f"{key} is no permutation of the elements")
         sides.append((points(body, order), count))
     (A, na), (B, nb) = sides
     stack = [(cert["tree"], (0, na), (0, nb), start, True)]

@@ -47,11 +47,12 @@ def _apart(jobs) -> list[tuple]:
     error = 256 * UNIT * (1 + np.abs(theta)) * np.abs(n).sum(1) * reach
     margin = gap * _norm(n) * (1 + 8 * UNIT) + 2 * error
 
-    P, p_first, p_of = _blocks([o.A if o.turning else o.B for o in os])
-    Q, q_first, q_of = _blocks([o.B if o.turning else o.A for o in os])
+    Ps, Qs = [o.A if o.turning else o.B for o in os], [o.B if o.turning else o.A for o in os]
+    p_first, p_of = _rows(Ps)
+    q_first, q_of = _rows(Qs)
     RP, RQ = (np.where(turning[:, None, None], x, y) for x, y in ((RA, RB), (RB, RA)))
     sign = np.where(turning, 1.0, -1.0)
-    key = _along(P, (_apply(RP, n) * sign[:, None])[p_of])
+    key = _products(Ps, _apply(RP, n) * sign[:, None], p_of)
     top = np.maximum.reduceat(key, p_first)
     fixed = np.where(turning, -top, (dp * n).sum(1) - top)
 
@@ -60,11 +61,14 @@ def _apart(jobs) -> list[tuple]:
         w = _turned(np.where(turning, 1.0, -1.0) * theta * t, k, n)
         shift = dp - t[:, None] * d
         c = fixed + np.where(turning, (shift * w).sum(1), -t * (d * n).sum(1))
-        ends.append(c[q_of] + _along(Q, (_apply(RQ, w) * sign[:, None])[q_of]) - margin[q_of])
+        ends.append((c - margin)[q_of] + _products(Qs, _apply(RQ, w) * sign[:, None], q_of))
+        if (s == e).all():
+            ends.append(ends[0])
+            break
     low, high = np.minimum(*ends), np.maximum(*ends)
     bend = 0.0
     if theta.any() and (e > s).any():
-        kQ, arms = _apply(RQ, k), []
+        Q, kQ, arms = np.concatenate(Qs), _apply(RQ, k), []
         for t in (s, e):
             offset = np.where(turning[:, None], _apply(RQ, dp - t[:, None] * d), 0.0)
             arms.append(_norm(_cross(kQ[q_of], Q + offset[q_of])))
@@ -167,10 +171,18 @@ def crossed(mesh, y, ray) -> np.ndarray:
     return ~((side > bound).any(1) & (side < -bound).any(1))
 
 
-def _blocks(arrays):
-    """All rows in one block, the first row of each array, and the array that each row is of."""
+def _rows(arrays):
+    """Of all arrays' rows in one block: the first row of each array, and the array that each row is of."""
     counts = np.array([len(a) for a in arrays])
-    return np.concatenate(arrays), np.concatenate([[0], np.cumsum(counts)[:-1]]), np.repeat(np.arange(len(arrays)), counts)
+    return np.cumsum(counts) - counts, np.repeat(np.arange(len(arrays)), counts)
+
+
+def _products(arrays, n, of):
+    """Each row of arrays[i] times n[i], in one block."""
+    if len(of) > 300 * len(arrays):
+        return np.concatenate([a @ v for a, v in zip(arrays, n)])
+    X, n = np.concatenate(arrays), n[of]
+    return X[:, 0] * n[:, 0] + X[:, 1] * n[:, 1] + X[:, 2] * n[:, 2]
 
 
 def _rotation(q):
@@ -182,10 +194,6 @@ def _rotation(q):
 def _apply(R, v):
     """Transposed rotation times vector, row by row."""
     return np.einsum("tij,ti->tj", R, v)
-
-
-def _along(X, n):
-    return X[:, 0] * n[:, 0] + X[:, 1] * n[:, 1] + X[:, 2] * n[:, 2]
 
 
 def _cross(a, b):

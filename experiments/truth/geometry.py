@@ -48,20 +48,27 @@ class Pair:
 
 
 class points:
-    """Vertices of a body's elements in a given order, one block; `of(lo, hi)` are those of elements lo to hi - 1."""
+    """Vertices of a body's elements in a given order (n integers or None); `of(lo, hi)` are those of elements lo to hi - 1."""
 
     def __init__(self, body, order):
-        if body.kind == "mesh":
-            faces = body.faces if order is None else body.faces[order]
-            self.block, self.first = body.vertices[faces.ravel()], range(0, 3 * len(faces) + 1, 3)
+        self.mesh = body if body.kind == "mesh" else None
+        if self.mesh:
+            self.ids = (body.faces if order is None else body.faces[order]).ravel()
         elif len(body.pieces) == 1:
             self.block, self.first = body.pieces[0].vertices, (0, len(body.pieces[0].vertices))
         else:
-            pieces = [body.pieces[i].vertices for i in (order or range(len(body.pieces)))]
+            pieces = [body.pieces[i].vertices for i in (range(len(body.pieces)) if order is None else order)]
             self.block, self.first = np.concatenate(pieces), np.cumsum([0] + [len(p) for p in pieces])
 
     def of(self, lo, hi):
-        return self.block[self.first[lo]:self.first[hi]]
+        if not self.mesh:
+            return self.block[self.first[lo]:self.first[hi]]
+        ids = self.ids[3 * lo:3 * hi]
+        if len(ids) > 100:  # a vertex belongs to about six faces: each once
+            met = np.zeros(len(self.mesh.vertices), bool)
+            met[ids] = True
+            return self.mesh.vertices[met]
+        return self.mesh.vertices[ids]
 
 
 def elements(body):

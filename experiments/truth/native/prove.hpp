@@ -248,8 +248,10 @@ class Prover {
     }
     void nearest(int na, int nb, double t, double& best, Common* common = nullptr, bool* found = nullptr) {
         if (effort_.spent() || sphere_gap(na, nb, t) >= best) return;
+        if (best <= 0 && (!common || *found || attempts_ > 8)) return;
         double least = std::min(A_.nodes[na].radius, B_.nodes[nb].radius);
-        if (leaf_pair(na, nb) || sphere_gap(na, nb, t) > -0.7 * least) {
+        double big = double(A_.nodes[na].v.size() + B_.nodes[nb].v.size());
+        if (leaf_pair(na, nb) || (best < 1e300 && sphere_gap(na, nb, t) > (big > 256 ? 0 : -0.7 * least))) {
             auto P = quick(na, nb);
             effort_.done += double(P.r.size() + P.b.size());
             const auto& x = P.at(t);
@@ -485,6 +487,7 @@ class Prover {
                     m = m + p[j] * dd(w), total += w;
                 }
                 m = m * (dd(1) / dd(total));
+                if (parts_only && !sees(side ? A_ : B_, side, m, t)) continue;
                 if (s.mesh) n = unit(cross(p[1] - p[0], p[2] - p[0]));
                 for (double depth = s.mesh ? 0.05 * std::min(A_.size, B_.size) : 0; ; depth *= 0.02) {
                     if (holds(world(side, m - n * dd(depth), t), t, out)) return true;
@@ -493,6 +496,14 @@ class Prover {
             }
         }
         return false;
+    }
+    // Is point y of side's body inside the other body? Where surfaces are apart, that tells of its whole part.
+    bool sees(const Solid& other, int side, vec<dd> y, double t) {
+        auto x = world(side, y, t);
+        vec<dd> there = side ? transposed(sq_.RA, transposed(sq_.turn(dd(t)), x - sq_.d * dd(t))) : transposed(sq_.RB, x - sq_.dp);
+        int piece;
+        std::array<int, 4> ids;
+        return within(other, there, piece, ids);
     }
     vec<dd> world(int side, vec<dd> y, double t) const {
         return side ? sq_.RB * y + sq_.dp : sq_.turn(dd(t)) * (sq_.RA * y) + sq_.d * dd(t);

@@ -162,6 +162,11 @@ class Solid {
                 w[i] = {v[0] - y0.x, v[1] - y0.y, v[2] - y0.z};
                 L = std::max(L, std::abs(w[i].x) + std::abs(w[i].y) + std::abs(w[i].z));
             }
+            if (u.y == 0 && u.z == 0) {  // along x: past the triangle's bounds?
+                double blur = 1e-14 * (L + scale);
+                auto past = [&](double a, double b, double c) { return (a > blur && b > blur && c > blur) || (a < -blur && b < -blur && c < -blur); };
+                if (past(w[0].y, w[1].y, w[2].y) || past(w[0].z, w[1].z, w[2].z)) continue;
+            }
             double bound = 1e-14 * 16 * L * (L + scale), e[3];
             int up = 0, down = 0;
             for (int i = 0; i < 3; ++i) {
