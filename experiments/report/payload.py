@@ -161,7 +161,7 @@ def _table(table, found: pd.DataFrame) -> dict:
     from .cells import links
 
     return {"name": table.name, "title": table.title, "caption": table.caption, "columns": [str(c) for c in table.text.columns],
-            "rows": table.text.astype(str).values.tolist(), "links": links(table, found)}
+            "own": table.choice is not None, "rows": table.text.astype(str).values.tolist(), "links": links(table, found)}
 
 
 def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:

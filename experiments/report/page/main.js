@@ -33,7 +33,7 @@ function runPage() {
     section("speed", "Accuracy against speed", "", el("div", { id: "plot-controls", class: "controls" }), el("div", { id: "plot" }), el("p", { id: "plot-words", class: "note" })),
     section("by", "By difficulty", "A pooled rate hides all that matters: the same counts split by one property of the cases.", el("div", { id: "pivot-controls", class: "controls" }), el("div", { id: "pivot-table" })),
     section("cases", "Gallery", "", el("div", { id: "gallery" })),
-    section("tables", "Tables of the run", "As saved in its folder tables/ (CSV, Markdown), over all cases whatever the filter above.", el("div", { id: "saved" })),
+    section("tables", "Tables of the run", "As saved in its folder tables/ (CSV, Markdown, LaTeX), over all cases whatever the filter above; rates with 95 % Wilson intervals.", el("div", { id: "saved" })),
     section("run", "What was run", "", el("div", { id: "run-facts" }))), dialog());
   F.question = D.cases.question[0];
   F.lane = Object.keys(D.lanes)[0] || "";

@@ -45,7 +45,7 @@ async function drawPlot() {
       type: "scatter", mode: points.length > 1 ? "lines+markers+text" : "markers+text", name, legendgroup: name, showlegend: first, x: points.map((p) => p.us), y: points.map((p) => squash(p.rate)),
       customdata: points.map((p) => p.label), line: { color: shade, width: 1.2 },
       marker: { symbol: points.map((p) => symbol + (p.whole ? "" : "-open")), size: 9, color: shade, line: { color: shade, width: 1.5 } },
-      text: points.map((p) => p.label.split(" ").slice(1).join(" ")), textposition: "top right", textfont: { size: 10, color: ink },
+      text: points.map((p) => p.label.split(" ").slice(1).join(" ")), cliponaxis: false, textposition: "top right", textfont: { size: 10, color: ink },
       error_y: { type: "data", symmetric: false, array: points.map((p) => squash(p.ci[1]) - squash(p.rate)), arrayminus: points.map((p) => squash(p.rate) - squash(p.ci[0])), color: shade, thickness: 0.8, width: 2 },
       hovertext: points.map((p) => `<b>${p.label}</b><br>${measure} ${p.count}/${p.total} (${interval(p.ci)})<br>net ${microseconds(p.cost.net)} µs, gross ${microseconds(p.cost.gross)} µs over ${p.cost.n} ${p.cost.bins ? "bins of pairs of the native lane" : "cases"}<br>${p.whole ? "answers all of these cases" : `answers ${p.r.answered} of ${p.r.asked}`}`),
       hoverinfo: "text",

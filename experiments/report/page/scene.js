@@ -95,7 +95,7 @@ class BodyScene {
   async show(g, overlay = null) {
     this.g = g, this.overlay = overlay;
     if (overlay) this.seen = [await body(overlay.bodies[0]), await body(overlay.bodies[1])];
-    const ends = g.moving ? [0, 0.25, 0.5, 0.75, 1] : [0];
+    const ends = !g.moving ? [0] : g.theta ? [...Array(49).keys()].map((j) => j / 48 + (j % 48 ? 0.003 * Math.sin(7 * j) : 0)) : [0, 1]; // uneven: full turns come back
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     const grow = (p) => { for (let k = 0; k < 3; k++) low[k] = Math.min(low[k], p[k]), high[k] = Math.max(high[k], p[k]); };
     for (const t of ends) corners(g.a).forEach((v) => { const P = g.poseA(t); grow(plus(apply(P.R, v), P.p)); });
