@@ -5,11 +5,19 @@ RUN ?= results/runs/quick
 PRESET ?= quick
 NATIVE := CMakeLists.txt pyproject.toml $(shell find ofg experiments/truth -name '*.[hc]pp' -o -name CMakeLists.txt)
 
-.PHONY: help env build quick test clean
+.PHONY: help env build quick test engines native bench-ofg bench-truth crosscheck attack fuzz reproduce clean
 help:
-	@echo "make quick   set up, build, run the main job in a few minutes, print its tables"
-	@echo "make test    set up, build, run every test"
-	@echo "make clean   remove the environment and the build (never a run)"
+	@echo "make quick        set up, build, run the main job in a few minutes, print its tables"
+	@echo "make test         set up, build, run every test"
+	@echo "make engines      install the further engines too: coal, rapier, parry, ipctk, drake"
+	@echo "make native       build the native lane (the libraries asked from C++) with what is found here, and compare both lanes"
+	@echo "make reproduce    run every experiment and the standard preset into results/ (under an hour)"
+	@echo "make bench-ofg    time OFG step by step, by size and k, beside the native engines"
+	@echo "make bench-truth  certified labels a second on the standard mix"
+	@echo "make crosscheck   ask CGAL's exact kernel and dense sampling about the labels"
+	@echo "make attack       corrupt thousands of certificates: the checker must refuse them"
+	@echo "make fuzz         a million random queries under the address and undefined-behaviour sanitizers"
+	@echo "make clean        remove the environment and the build (never a run)"
 
 env: .venv/.ready
 .venv/.ready: requirements.txt
@@ -28,6 +36,34 @@ quick: build
 
 test: build
 	$(BIN)/pytest -n 2
+
+engines: build
+	$(BIN)/pip install --disable-pip-version-check coal rapier3d ipctk py-parry3d drake==1.51.1
+
+native: build
+	$(BIN)/python -m experiments.native
+
+bench-ofg: build
+	$(BIN)/python -m experiments.bench_ofg
+
+bench-truth: build
+	$(BIN)/python -m experiments.truth.bench
+
+crosscheck: build
+	$(BIN)/python -m experiments.truth.crosscheck
+
+attack: build
+	$(BIN)/python -m experiments.truth.attack
+
+QUERIES ?= 1000000
+SECONDS ?= 600
+fuzz: build
+	$(BIN)/cmake -S tests/ofg/native -B build/fuzz -DCMAKE_BUILD_TYPE=Release
+	$(BIN)/cmake --build build/fuzz --target fuzz
+	build/fuzz/fuzz $(QUERIES) $(SECONDS)
+
+reproduce: build
+	$(BIN)/ofg-bench reproduce
 
 clean:
 	rm -rf .venv build
