@@ -24,6 +24,7 @@ from ofg import Body, Pose, Query
 from .contract import MissingEngine, Unsupported
 from .pieces import Decomposed
 from .sampling import Discrete, Substeps
+from .units import Normalised
 
 MARGIN = 0.001  # of each hull, whatever its size; cubes in 200 rotations: distances are 2e-3 short to within 1e-12
 
@@ -61,7 +62,7 @@ class Bullet(Discrete):
         return _place, test
 
 
-class BulletNoMargin(Bullet):
+class BulletNoMargin(Normalised, Bullet):
     """The margins added back to the reported distance: right to 1e-12 on cubes at gaps from 1e-1 to -1e-1."""
 
     name = "bullet-no-margin"
@@ -86,7 +87,7 @@ class BulletCoacd(Decomposed, BulletNoMargin):
     guarantee = "bullet-no-margin on the pieces of CoACD at threshold 0.05, which are another body than the mesh"
 
 
-class BulletCoacdSubsteps(Decomposed, BulletNoMarginSubsteps):
+class BulletCoacdSubsteps(Substeps, BulletCoacd):
     name = "bullet-coacd-substeps"
     guarantee = "bullet-coacd at n poses; blind between them"
 

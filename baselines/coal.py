@@ -17,6 +17,7 @@ from ofg import Body, Pose, Query
 
 from .contract import MissingEngine
 from .sampling import Discrete, Substeps
+from .units import Normalised
 
 
 def _coal():
@@ -57,7 +58,7 @@ class CoalConvex(Discrete):
         return _place, lambda at: any(ask(at) for ask in asks)
 
 
-class CoalConvexExact(CoalConvex):
+class CoalConvexExact(Normalised, CoalConvex):
     """A prepared ComputeCollision that asks for no contacts, tolerances 1e-12 (1e-14 gave a wrong sign)."""
 
     name = "coal-convex-exact"

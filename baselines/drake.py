@@ -15,6 +15,7 @@ from ofg import Body, Query
 
 from .contract import MissingEngine
 from .sampling import Discrete, Substeps
+from .units import Normalised
 
 
 def _drake():
@@ -62,9 +63,22 @@ class Drake(Discrete):
         return place, test
 
 
+class DrakeExact(Normalised, Drake):
+    # Without, 13 false hits on 421 certified cases (8 of them on bodies of 1e-6); in these units none, at gaps down to 1e-16 of the size.
+    length = 32.0
+    name = "drake-exact"
+    configuration = "best effort"
+    guarantee = "GJK (FCL with libccd) in doubles, bodies of radius 32 at the origin"
+
+
+class DrakeExactSubsteps(Substeps, DrakeExact):
+    name = "drake-exact-substeps"
+    guarantee = "drake-exact at n poses; blind between them"
+
+
 class DrakeDistance(Drake):
     name = "drake-distance"
-    configuration = "best effort"
+    configuration = "alternative"
     guarantee = "signed distance by GJK/EPA (FCL with libccd) in doubles"
 
     def ask(self, query_object, ids_a, ids_b) -> bool:
@@ -86,4 +100,4 @@ def _geometries(pydrake, body: Body, side: str, at) -> list:
     return [geometry.GeometryInstance(at, geometry.Convex(np.array(p.vertices.T), f"{side}{i}"), f"{side}{i}") for i, p in enumerate(body.pieces)]
 
 
-METHODS = [Drake, DrakeDistance, DrakeSubsteps, DrakeDistanceSubsteps]
+METHODS = [Drake, DrakeExact, DrakeExactSubsteps, DrakeDistance, DrakeSubsteps, DrakeDistanceSubsteps]

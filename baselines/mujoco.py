@@ -18,6 +18,7 @@ from ofg import Body, Pose, Query
 from .contract import Method, MissingEngine, Unsupported, Verdict
 from .pieces import Decomposed
 from .sampling import Discrete, Substeps
+from .units import Normalised, normalised
 
 DISTMAX = 0  # only the sign is asked; with a large one libccd is wrong by 0.1 to 1 on tetrahedra
 
@@ -62,7 +63,8 @@ class Mujoco(Discrete):
         return _place, test
 
 
-class MujocoExact(Mujoco):
+class MujocoExact(Normalised, Mujoco):
+    # Bodies of 1e-6, and of 1e6 beside 1, are refused by the compiler in other units.
     name = "mujoco-exact"
     configuration = "best effort"
     guarantee = "GJK/EPA in doubles on vertices stored as float32; ccd_tolerance 1e-12, 1000 iterations"
@@ -96,7 +98,7 @@ class MujocoCoacd(Decomposed, MujocoExact):
     guarantee = "mujoco-exact on the pieces of CoACD at threshold 0.05, which are another body than the mesh"
 
 
-class MujocoCoacdSubsteps(Decomposed, MujocoExactSubsteps):
+class MujocoCoacdSubsteps(Substeps, MujocoCoacd):
     name = "mujoco-coacd-substeps"
     guarantee = "mujoco-coacd at n poses; blind between them"
 
@@ -125,6 +127,7 @@ class MujocoSpeculative(Method):
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
+        query = normalised(query, 1.0)
         mujoco = _mujoco()
         spec = mujoco.MjSpec()
         spec.option.timestep = 1

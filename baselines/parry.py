@@ -13,8 +13,9 @@ import numpy as np
 
 from ofg import Body, Query
 
-from .contract import MissingEngine, Verdict
+from .contract import MissingEngine, Unsupported, Verdict
 from .sampling import Discrete, Substeps
+from .units import Normalised
 
 PAIR = [("a", "b", 0.0)]
 
@@ -39,7 +40,10 @@ class Parry(Discrete):
     guarantee = "GJK in doubles"
 
     def shapes(self, body: Body) -> list:
-        return [_parry().ConvexHull.from_mesh(np.array(p.vertices), p.faces.astype(np.uint32)) for p in body.pieces]
+        try:
+            return [_parry().ConvexHull.from_mesh(np.array(p.vertices), p.faces.astype(np.uint32)) for p in body.pieces]
+        except ValueError as error:
+            raise Unsupported(f"parry makes no hull of body '{body.name}': {error}") from error
 
     def world(self, query: Query):
         group, a, b = _parry().CollisionGroup, self.shapes(query.a), self.shapes(query.b)
@@ -63,10 +67,11 @@ class ParryMesh(Parry):
 class _Batch(Substeps):
     """All n poses in one call, which stops at the first that hits."""
 
-    def prepare(self, query: Query) -> Callable[[], Verdict]:
-        self.refuse(query)
+    def build(self, query: Query):
+        return None, self.world(query).check_any
+
+    def asker(self, query: Query, place, check_any) -> Callable[[], Verdict]:
         n = self.parameters["n"]
-        check_any = self.world(query).check_any
         poses = {"a": np.stack([query.motion.pose_at(query.pose_a, i / n).matrix for i in range(1, n + 1)])}
 
         def ask() -> Verdict:
@@ -74,6 +79,17 @@ class _Batch(Substeps):
             return Verdict(False) if first is None else Verdict(True, (first + 1) / n)
 
         return ask
+
+
+class ParryExact(Normalised, Parry):
+    name = "parry-exact"
+    configuration = "best effort"
+    guarantee = "GJK in doubles, bodies of unit size at the origin"
+
+
+class ParryExactSubsteps(_Batch, ParryExact):
+    name = "parry-exact-substeps"
+    guarantee = "parry-exact at n poses; blind between them"
 
 
 class ParrySubsteps(_Batch, Parry):
@@ -86,4 +102,4 @@ class ParryMeshSubsteps(_Batch, ParryMesh):
     guarantee = "parry-mesh at n poses; blind between them"
 
 
-METHODS = [Parry, ParryMesh, ParrySubsteps, ParryMeshSubsteps]
+METHODS = [Parry, ParryExact, ParryExactSubsteps, ParryMesh, ParrySubsteps, ParryMeshSubsteps]

@@ -2,7 +2,7 @@
 
 A union is Rapier's own compound shape on the hull side, the soup of the pieces' faces on the mesh side.
 All numbers are float32 inside: overlaps are right to about 1e-6 of the size on boxes and meshes, hulls call gaps below 1e-4 hits.
-Rapier has no setting that makes it more exact; what can be done is to cast a turn in legs.
+Rapier has no setting that makes it more exact; what can be done is to choose units and origin, and to cast a turn in legs.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from ofg import Body, Pose, Query
 
 from .contract import Method, MissingEngine, Verdict
 from .sampling import Discrete, Substeps
+from .units import Normalised
 
 
 def _rapier():
@@ -71,6 +72,17 @@ class _Overlap(Discrete):
 class Rapier(_Hull, _Overlap):
     name = "rapier"
     guarantee = "GJK in float32"
+
+
+class RapierExact(Normalised, Rapier):
+    name = "rapier-exact"
+    configuration = "best effort"
+    guarantee = "GJK in float32, bodies of unit size at the origin"
+
+
+class RapierExactSubsteps(Substeps, RapierExact):
+    name = "rapier-exact-substeps"
+    guarantee = "rapier-exact at n poses; blind between them"
 
 
 class RapierMesh(_Mesh, _Overlap):
@@ -153,7 +165,7 @@ class _CastInLegs(_Cast):
             raise ValueError(f"Method '{self.name}': legs = {self.legs}; give 1 or more.")
 
 
-class RapierCastLegs(_Hull, _CastInLegs):
+class RapierCastLegs(Normalised, _Hull, _CastInLegs):
     name = "rapier-cast-legs"
     guarantee = "conservative advancement in float32, restarted at each leg"
 
@@ -175,4 +187,4 @@ def _world(shape, pose: Pose):
     return world
 
 
-METHODS = [Rapier, RapierMesh, RapierSubsteps, RapierMeshSubsteps, RapierCast, RapierCastMesh, RapierCastLegs]
+METHODS = [Rapier, RapierExact, RapierExactSubsteps, RapierMesh, RapierSubsteps, RapierMeshSubsteps, RapierCast, RapierCastMesh, RapierCastLegs]

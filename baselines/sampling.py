@@ -24,7 +24,9 @@ class Discrete(Method):
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
-        place, test = self.build(query)
+        return self.asker(query, *self.build(query))
+
+    def asker(self, query: Query, place: Place, test: Test) -> Callable[[], Verdict]:
         pose = place(query.pose_a)
         return lambda: Verdict(bool(test(pose)))
 
@@ -51,9 +53,7 @@ class Substeps(Discrete):
     def time_error(self) -> float:
         return 1 / self.parameters["n"]
 
-    def prepare(self, query: Query) -> Callable[[], Verdict]:
-        self.refuse(query)
-        place, test = self.build(query)
+    def asker(self, query: Query, place: Place, test: Test) -> Callable[[], Verdict]:
         n = self.parameters["n"]
         samples = [(i / n, place(query.motion.pose_at(query.pose_a, i / n))) for i in range(1, n + 1)]
 

@@ -1,0 +1,44 @@
+"""Best effort, part one: the units and the origin that suit an engine.
+
+Engines have absolute tolerances and margins, and lose digits far from the origin. A careful user measures in units in which his bodies are
+about 1 and puts the origin beside them; so do the methods below. Both cost no accuracy: units are powers of two, and the origin is B's
+position, subtracted in double.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import Callable, ClassVar
+
+from ofg import Body, Motion, Pose, Query
+
+from .contract import Verdict
+
+
+class Normalised:
+    """Put this before a method: `class FclExact(Normalised, FclConvex)`. Its margin is in the method's units, not the query's."""
+
+    length: ClassVar[float] = 1.0  #: the radius that the smaller body gets, within a factor of sqrt(2)
+
+    def prepare(self, query: Query) -> Callable[[], Verdict]:
+        self.refuse(query)
+        return super().prepare(normalised(query, self.length))
+
+
+def normalised(query: Query, length: float) -> Query:
+    """The same question in other units, with B at the origin. Times of impact are as they were."""
+    unit = 2.0 ** round(math.log2(length / min(query.a.radius, query.b.radius)))
+    motion = query.motion
+    return Query(query.question, scaled(query.a, unit), scaled(query.b, unit),
+                 Pose(query.pose_a.quaternion, unit * (query.pose_a.position - query.pose_b.position)), Pose(query.pose_b.quaternion),
+                 Motion(unit * motion.displacement, motion.axis, motion.angle))
+
+
+@lru_cache(maxsize=64)
+def scaled(body: Body, unit: float) -> Body:
+    """The body times a power of two: exact, so nothing about it has to be checked again."""
+    if unit == 1:
+        return body
+    pieces = () if body.kind != "union" else tuple(scaled(piece, unit) for piece in body.pieces)
+    return Body._of(body.kind, unit * body.vertices, body.faces, pieces, body.name)
