@@ -91,7 +91,6 @@ struct Mesh {
   Blocks<T> blocks;                            // the same centres, for the selection
   std::vector<T> corners;                      // of each face: nine coordinates in a row
   Cloud<T> cloud;                              // the vertices, for supports
-  std::vector<T> face_above;                   // how far any vertex is above a face's plane, times its normal's length: 0 where convex
   std::vector<T> face_radius;                  // from a face's centre to its farthest vertex, rounded up
   Vec3<T> centre;                              // mean of the vertices
   T radius = 0;                                // from `centre` to the farthest vertex, rounded up
@@ -136,23 +135,8 @@ struct Mesh {
       corners.insert(corners.end(), {t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z});
     }
     blocks = Blocks<T>(centres);
-    find_face_above();
     for (std::size_t i = 0; i < n; ++i) cloud.push(vertices[i]);
     cloud.pad();
-  }
-
-  // Never believed of a mesh that is not convex: there it is infinite, as it is where working it out would take long.
-  void find_face_above() {
-    constexpr double most_work = 3e8;
-    face_above.assign(faces.size(), std::numeric_limits<T>::infinity());
-    if (!convex || double(faces.size()) * vertices.size() > most_work) return;
-    for (int f = 0; f < size(); ++f) {
-      const Triangle<T> t = triangle(f);
-      const Vec3<T> n = t.normal();
-      T above = 0;
-      for (int i = 0; i < vertices.size(); ++i) above = std::fmax(above, dot(n, vertices[std::size_t(i)] - t.a));
-      if (dot(n, n) > 0) face_above[std::size_t(f)] = above;
-    }
   }
 
   int size() const { return int(faces.size()); }

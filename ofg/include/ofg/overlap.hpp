@@ -26,16 +26,19 @@ bool edges_meet(const Triangle<T>& s0, const Triangle<T>& t0, T slack, Vec3<T>& 
   return !((sliver(s) || sliver(t)) && slivers_apart(s, t, slack));
 }
 
-// Is the plane of one of the selected faces a wall between the selections? `axis`: the normal of the best, from B to A.
-template <class T>
-bool walled_off(const Selection<T>& a, const Selection<T>& b, T gap, Vec3<T>& axis) {
+// Is the plane of one of the selected faces a wall between the selections? `axis`: the normal of the best, from B to A. A plane that one
+// side is in front of is a proposal; that the other side is behind it is tried on its points, because the normal of a sliver
+// is mostly rounding, and a mesh need not be convex.
+template <class T, class Along>
+bool walled_off(const Selection<T>& a, const Selection<T>& b, T gap, Vec3<T>& axis, Along along) {
   T n[3], m[3];
-  const T of_b = kernels<T>.planes_gap(b.view(), b.above.data(), b.padded(), a.cloud(), n);
-  if (of_b > gap) return true;
-  const T of_a = kernels<T>.planes_gap(a.view(), a.above.data(), a.padded(), b.cloud(), m);
+  const T of_b = kernels<T>.planes_gap(b.view(), b.padded(), a.cloud(), n);
+  if (of_b > gap && separated(axis = {n[0], n[1], n[2]}, gap, along, 1)) return true;
+  const T of_a = kernels<T>.planes_gap(a.view(), a.padded(), b.cloud(), m);
+  if (of_a > gap && separated(axis = {-m[0], -m[1], -m[2]}, gap, along, 1)) return true;
   const bool first = of_b > of_a;
   if ((first ? of_b : of_a) > -std::numeric_limits<T>::infinity()) axis = first ? Vec3<T>(n[0], n[1], n[2]) : Vec3<T>(-m[0], -m[1], -m[2]);
-  return of_a > gap;
+  return false;
 }
 
 // Step 8: face against face, the nearest first, until two meet. What settles many pairs at once is tried where it is likely to: the
@@ -50,7 +53,7 @@ bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Vec3<T> a
     answer.counts.face_pairs = all;
     return false;
   };
-  if (walled_off(a, b, gap, axis)) return settled();
+  if (walled_off(a, b, gap, axis, along)) return settled();
   const TriangleView<T> faces = b.view();
   for (int i = 0; i < a.size(); ++i) {
     if (i == 1 && separated(axis, gap, along)) return settled();

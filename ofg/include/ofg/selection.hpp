@@ -38,7 +38,6 @@ struct Selection {
   std::vector<T> x, y, z;          // corners of the same faces where they were placed: all a, then all b, then all c, each padded
   List<int> vertices, edges;       // of the selected faces, each once, nearest first
   List<int> vertex_face, edge_face;  // a selected face each belongs to
-  std::vector<T> above;            // face_above of the same faces, padded
   Vec3<T> centre;                  // mean of the faces' centres, in the body's own frame
   T radius = 0;                    // from `centre` to the farthest vertex of the faces, rounded up
 
@@ -76,7 +75,7 @@ struct Workspace {
     const auto grow = [](auto& vector, std::size_t n) { vector.resize(std::max(n, vector.size())); };
     for (auto* s : {&a, &b}) {
       s->near.reserve(f + most_ranked), s->vertices.reserve(v), s->vertex_face.reserve(v), s->edges.reserve(e), s->edge_face.reserve(e);
-      grow(s->x, 6 * f), grow(s->y, 6 * f), grow(s->z, 6 * f), grow(s->above, f);
+      grow(s->x, 6 * f), grow(s->y, 6 * f), grow(s->z, 6 * f);
     }
     candidates.reserve(f + most_ranked);
     grow(seen_face, f), grow(seen_vertex, v), grow(seen_edge, e);
@@ -143,9 +142,7 @@ void gather(const Mesh<T>& m, Selection<T>& s, int copy = 0) {
   const std::size_t n = std::size_t(s.padded()), first = std::size_t(copy) * 3 * n;
   T *x = s.x.data() + first, *y = s.y.data() + first, *z = s.z.data() + first;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t f = std::size_t(s.near[i < s.near.size() ? i : 0].face);
-    const T* c = &m.corners[9 * f];
-    s.above[i] = m.face_above[f];
+    const T* c = &m.corners[9 * std::size_t(s.near[i < s.near.size() ? i : 0].face)];
     x[i] = c[0], y[i] = c[1], z[i] = c[2];
     x[n + i] = c[3], y[n + i] = c[4], z[n + i] = c[5];
     x[2 * n + i] = c[6], y[2 * n + i] = c[7], z[2 * n + i] = c[8];

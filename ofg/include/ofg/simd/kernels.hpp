@@ -72,7 +72,7 @@ struct Kernels {
   T (*farthest)(const T* x, const T* y, const T* z, int n, const T* point);
   void (*planes_apart)(const TriangleView<T>&, int n, const T* triangle, T slack, unsigned char* apart);
   bool (*edges_apart)(const T* s, const T* t, T slack, T* best);
-  T (*planes_gap)(const TriangleView<T>&, const T* reach, int n, const CloudView<T>&, T* normal);
+  T (*planes_gap)(const TriangleView<T>&, int n, const CloudView<T>&, T* normal);
   void (*segments_miss)(const TriangleView<T>&, int n, const T* segment, T slack, unsigned char* miss);
   void (*boxes_apart)(const BoxView<T>&, int n, const T* box, T slack, unsigned char* apart);
   void (*transform)(T* x, T* y, T* z, int n, const T* rows, const T* shift);

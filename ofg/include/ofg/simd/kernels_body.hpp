@@ -301,10 +301,10 @@ static bool edges_apart(const T* s, const T* t, T slack, T* best) {
   return true;
 }
 
-// How far the farthest-seeing of n face planes (a multiple of lanes) sees all of a cloud from its mesh: the greatest of (least product
-// with the cloud - reach) over the planes, by the sum of the sizes of the normal's components.
+// The plane of n faces (a multiple of lanes) that a cloud is farthest in front of: its normal and how far, by the sum of the sizes of
+// the normal's components.
 template <class T>
-static T planes_gap(const TriangleView<T>& t, const T* reach, int n, const CloudView<T>& c, T* normal) {
+static T planes_gap(const TriangleView<T>& t, int n, const CloudView<T>& c, T* normal) {
   constexpr int w = OFG_BYTES / int(sizeof(T));
   T most = -__builtin_huge_valf();
   for (int i = 0; i < n; i += w) {
@@ -316,7 +316,7 @@ static T planes_gap(const TriangleView<T>& t, const T* reach, int n, const Cloud
       const auto v = m.x * c.x[j] + m.y * c.y[j] + m.z * c.z[j];
       low = v < low ? v : low;
     }
-    const auto gap = (low - times<T>(m, a) - load(reach + i)) / sum_of_sizes<T>(m);
+    const auto gap = (low - times<T>(m, a)) / sum_of_sizes<T>(m);
     for (int l = 0; l < w; ++l)
       if (gap[l] > most) most = gap[l], normal[0] = m.x[l], normal[1] = m.y[l], normal[2] = m.z[l];
   }
