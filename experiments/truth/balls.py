@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import isfinite
+
 from flint import arb, fmpq
 
 BITS = 256
@@ -17,13 +19,20 @@ def number(x) -> fmpq:
     if isinstance(x, str):
         p, _, q = x.partition("/")
         return fmpq(int(p), int(q or 1))
-    return rational(x)
+    return x if isinstance(x, fmpq) else rational(x)
+
+
+def finite(x):
+    """The same, a double staying a double. Raises for what is no finite number."""
+    if type(x) is not float:
+        return number(x)
+    if not isfinite(x):
+        raise ValueError(f"{x} is no finite number")
+    return x
 
 
 def nearest_double(x) -> float:
-    """The double next to a number of a certificate (error: one unit in the last place)."""
-    if isinstance(x, str):
-        x = number(x)
+    """The double next to a number (error: one unit in the last place)."""
     return int(x.p) / int(x.q) if isinstance(x, fmpq) else float(x)
 
 

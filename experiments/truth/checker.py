@@ -12,7 +12,7 @@ import numpy as np
 from flint import arb
 
 from . import filter
-from .balls import BITS, add, ball, cross, dot, greatest, least, mul, norm, number, rational, transposed, vector
+from .balls import BITS, add, ball, cross, dot, finite, greatest, least, mul, norm, number, rational, transposed, vector
 from .geometry import Pair, elements, parts, points, support
 
 
@@ -73,23 +73,26 @@ def check_many(labelled, doubles=True) -> list[Check]:
     """`check` for (query, truth) pairs, the doubles' part in one batch. doubles=False: everything by balls (slow)."""
     verdicts, owed = [], []
     for i, (query, truth) in enumerate(labelled):
-        try:
-            with flint.ctx.workprec(BITS):
-                owed += [(i, o) for o in obligations(Pair(query), truth, truth.certificate)]
-            verdicts.append(Check(True))
-        except Refused as refusal:
-            verdicts.append(Check(False, str(refusal)))
-        except (KeyError, TypeError, ValueError, IndexError, AttributeError, ArithmeticError) as error:
-            verdicts.append(Check(False, f"malformed certificate ({type(error).__name__}: {error})"))
-    owed = [(i, o) for i, o in owed if verdicts[i].ok]
+        found, verdict = _refusal(lambda: list(obligations(Pair(query), truth, truth.certificate)))
+        owed += [(i, o) for o in found or ()]
+        verdicts.append(verdict)
     open_ = filter.settle([o for _, o in owed]) if doubles else [(j, None, None) for j in range(len(owed))]
     for j, *undecided in open_:
         i, o = owed[j]
         if verdicts[i].ok:
-            with flint.ctx.workprec(BITS):
-                fault = {Apart: apart, Within: within, Without: without}[type(o)](o, *undecided)
-            verdicts[i] = Check(not fault, fault)
+            _, verdicts[i] = _refusal(lambda: {Apart: apart, Within: within, Without: without}[type(o)](o, *undecided))
     return verdicts
+
+
+def _refusal(work):
+    """The result of `work` and the verdict on it: refused if it raises, whatever a forged certificate makes it raise."""
+    try:
+        with flint.ctx.workprec(BITS):
+            return work(), Check(True)
+    except Refused as refusal:
+        return None, Check(False, str(refusal))
+    except Exception as error:
+        return None, Check(False, f"malformed certificate ({type(error).__name__}: {error})")
 
 
 def obligations(pair, truth, c):
@@ -140,7 +143,7 @@ def clear(pair, cert, start, end, gap):
         for e, frame, *n in segments:
             if not (s <= e and frame in ("W", "A") and len(n) == 3):
                 raise Refused("segments are out of order")
-            yield Apart(pair, a, b, s, e, frame == "A", n, gap)
+            yield Apart(pair, a, b, s, e, frame == "A", [finite(c) for c in n], gap)
             s, owing = e, False
         if s < end or owing:
             require(split is not None, "some elements are not shown apart to the end")
@@ -157,7 +160,7 @@ def clear(pair, cert, start, end, gap):
 
 def common(pair, cert, t):
     """One point inside both: in four vertices of one convex piece [piece, i, j, k, l], or by winding number in a mesh (null)."""
-    x = [c if type(c) in (float, str) else float(c) for c in cert["point"]]
+    x = [finite(c) for c in cert["point"]]
     require(len(x) == 3, "a point has three coordinates")
     for of_b, body, where in ((False, pair.a, cert["a"]), (True, pair.b, cert["b"])):
         if body.kind == "mesh":
@@ -187,8 +190,7 @@ def apart(o, vertices=None, near=None):
         f = [sign * dot(line, v) + c for line, c in lines]
         M = theta**2 * greatest([norm(cross(kQ, add(v, offset))) for offset in offsets]) + slide if theta and e > s else 0
         if not (f[0] > 0 and f[1] > 0 and 3 * least(f) + greatest(f) > M * bend):
-            return f"plane {o.n} does not keep A and B apart by {o.gap} over [{o.s}, {o.e}]"
-    return ""
+            raise Refused(f"a plane does not keep A and B apart by {o.gap} over [{o.s}, {o.e}]")
 
 
 def within(o, *_):
@@ -197,10 +199,10 @@ def within(o, *_):
     x = add([number(c) for c in o.x], vector(pose.position), -1)
     y = transposed(RB, x) if o.of_b else transposed(RA, o.pair.turn(-rational(o.t), add(x, d, -rational(o.t))))
     if o.corners is None:
-        return "" if winding(o.pair.b if o.of_b else o.pair.a, y) else "the point is not inside the mesh"
+        return require(winding(o.pair.b if o.of_b else o.pair.a, y), "the point is not inside the mesh")
     w = [add(vector(v), y, -1) for v in o.corners]
     signs = [dot(w[i], cross(w[j], w[k])) * s for i, j, k, s in ((1, 2, 3, 1), (0, 2, 3, -1), (0, 1, 3, 1), (0, 1, 2, -1))]
-    return "" if all(z > 0 for z in signs) or all(z < 0 for z in signs) else "the point is not inside its tetrahedron"
+    require(all(z > 0 for z in signs) or all(z < 0 for z in signs), "the point is not inside its tetrahedron")
 
 
 def without(o, *_):
@@ -210,7 +212,7 @@ def without(o, *_):
         y = transposed(RA, o.pair.turn(-t, add(add(mul(RB, vector(o.v)), dp), d, -t)))
     else:
         y = transposed(RB, add(add(o.pair.turn(t, mul(RA, vector(o.v))), d, t), dp, -1))
-    return "" if winding(o.pair.a if o.of_b else o.pair.b, y) == 0 else "a part of one body may lie inside the other"
+    require(winding(o.pair.a if o.of_b else o.pair.b, y) == 0, "a part of one body may lie inside the other")
 
 
 def winding(mesh, y):

@@ -17,6 +17,13 @@ _solids: WeakKeyDictionary[Body, _native.Solid] = WeakKeyDictionary()
 
 def prove(query: Query) -> Truth:
     """Propose a label and its certificate. Never raises for a valid query and never hangs: "uncertain" with a reason otherwise."""
+    try:
+        return _prove(query)
+    except (OverflowError, ValueError) as error:  # lengths near the ends of the range of doubles
+        return uncertain(f"numbers beyond the prover's range ({error})")
+
+
+def _prove(query: Query) -> Truth:
     a, b = _solid(query.a), _solid(query.b)
     m = query.motion
     pair = _native.Pair(query.pose_a.quaternion.tolist(), query.pose_a.position.tolist(), query.pose_b.quaternion.tolist(),

@@ -11,7 +11,7 @@ import pytest
 from experiments.truth import check, check_many, label
 from experiments.truth.attack import campaign
 
-from .draw import convex_query
+from .draw import composite_query, convex_query
 
 
 def labelled(question, want, count, seed):
@@ -103,3 +103,42 @@ def test_balls_alone_agree_with_the_doubles():
             if truth.gap > 0:
                 asked += [(query, replace(truth, gap=truth.gap * (1 + x))) for x in (1e-12, 1e-9, 1e-3, 0.1)]
     assert [c.ok for c in check_many(asked)] == [c.ok for c in check_many(asked, doubles=False)]
+
+
+def test_junk_anywhere_in_a_certificate_is_refused_without_harm_to_the_rest():
+    """Nothing raises, and the honest label in the same batch still verifies. What is accepted (a later end of an instant, the null of a
+    mesh) has to be accepted by balls alone too."""
+    rng = np.random.default_rng(13)
+    junk = ["x", "1/0", None, float("nan"), float("inf"), -1, 1e308, [], {}, True, "0x1"]
+    honest = convex_query(rng, "overlap")
+    good = (honest, label(honest))
+    refusals = total = 0
+    for question in ("overlap", "translation", "motion"):
+        for draw in (convex_query, composite_query):
+            for _ in range(6):
+                query = draw(rng, question)
+                truth = label(query)
+                for _ in range(25):
+                    certificate = copy.deepcopy(dict(truth.certificate))
+                    if _spoil(rng, certificate, junk[rng.integers(len(junk))]) is None:
+                        continue
+                    verdicts = check_many([good, (query, replace(truth, certificate=certificate)), good])
+                    assert verdicts[0].ok and verdicts[2].ok
+                    total += 1
+                    refusals += not verdicts[1].ok
+                    if verdicts[1].ok and draw is convex_query:
+                        assert check_many([(query, replace(truth, certificate=certificate))], doubles=False)[0].ok
+    assert refusals > 0.6 * total
+
+
+def _spoil(rng, node, junk):
+    """Replace one leaf, chosen by walking down at random; None if there is none."""
+    while True:
+        keys = list(node) if isinstance(node, dict) else list(range(len(node)))
+        if not keys:
+            return None
+        key = keys[rng.integers(len(keys))]
+        if not isinstance(node[key], (dict, list)) or not node[key] or rng.random() < 0.05:
+            node[key] = junk
+            return key
+        node = node[key]
