@@ -1,0 +1,104 @@
+"""What changed between two runs: accuracy to the case, time paired by case."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from . import metrics
+from .store import Store
+
+SAME_TIME = 1e-9  # of the step: reported times of impact that differ by less are the same, so that libm's last bit is no change
+REFERENCE = ("case", "scenario", "level", "question", "size", "faces", "tags", "label", "t_lo", "t_hi", "start", "end", "gap", "certificate")
+
+
+@dataclass(frozen=True)
+class Difference:
+    """only_cases, only_methods: what one run has and the other has not, (first, second). labels: cases whose truth moved.
+    answers: rows (case, method, question, before, after) whose status, verdict, outcome or time of impact moved.
+    rates: accuracy per question and method before and after, where it moved. times: ratios second over first, for whoever was timed in both.
+    compared: pairs of case and method that both runs have."""
+
+    only_cases: tuple[list[str], list[str]]
+    only_methods: tuple[list[str], list[str]]
+    labels: pd.DataFrame
+    answers: pd.DataFrame
+    rates: pd.DataFrame
+    times: pd.DataFrame
+    compared: int
+
+    @property
+    def same_content(self) -> bool:
+        return not any((*self.only_cases, *self.only_methods))
+
+    @property
+    def identical(self) -> bool:
+        """Accuracy is the same, case by case, over the same cases and methods."""
+        return self.same_content and self.labels.empty and self.answers.empty and self.compared > 0
+
+
+def compare(first: Store, second: Store) -> Difference:
+    """Raises StoreError for a run that is not finished."""
+    a, b = metrics.outcomes(first), metrics.outcomes(second)
+    both = a.merge(b, on=["case", "method"], suffixes=("_a", "_b"))
+    cases = _only(a.case, b.case)
+    methods = _only(a.method, b.method)
+    return Difference(cases, methods, _labels(first, second), _answers(both), _rates(both), _times(first, second), len(both))
+
+
+def reference(run: Store, into: Store) -> None:
+    """Keep of a run what `compare` needs for accuracy: answers and labels, without bodies, certificates and times."""
+    run.read("observations.parquet")
+    cases = run.read("cases.parquet").assign(certificate="")
+    into.write_text(run.config.model_dump_json(indent=1) + "\n", "config.json")
+    into.write(cases[list(REFERENCE)], "cases.parquet")
+    into.write(run.read("observations.parquet").assign(detail=lambda t: t.detail.str.slice(0, 60)), "observations.parquet")
+
+
+def _only(a: pd.Series, b: pd.Series) -> tuple[list[str], list[str]]:
+    left, right = dict.fromkeys(a), dict.fromkeys(b)
+    return [x for x in left if x not in right], [x for x in right if x not in left]
+
+
+def _labels(first: Store, second: Store) -> pd.DataFrame:
+    both = first.read("cases.parquet").merge(second.read("cases.parquet"), on="case", suffixes=("_a", "_b"))
+    moved = both[(both.label_a != both.label_b) | (both.start_a != both.start_b) | (both.end_a != both.end_b)]
+    return pd.DataFrame({"case": moved.case, "before": moved.label_a, "after": moved.label_b}).reset_index(drop=True)
+
+
+def _answers(both: pd.DataFrame) -> pd.DataFrame:
+    hits = [both[f"hit_{s}"].astype("boolean") for s in "ab"]
+    verdict = ((hits[0] != hits[1]) | (hits[0].isna() != hits[1].isna())).fillna(False)
+    late = ~np.isclose(both.time_a, both.time_b, rtol=0, atol=SAME_TIME, equal_nan=True)
+    moved = both[verdict | late | (both.status_a != both.status_b) | (both.outcome_a != both.outcome_b) | (both.tunnelled_a != both.tunnelled_b)]
+    return pd.DataFrame({"case": moved.case, "method": moved.method, "question": moved.question_a, "before": [_said(r, "a") for r in moved.to_dict("records")],
+                         "after": [_said(r, "b") for r in moved.to_dict("records")]}).reset_index(drop=True)
+
+
+def _said(row: dict, side: str) -> str:
+    if row[f"status_{side}"] != "ok":
+        return row[f"status_{side}"]
+    time = row[f"time_{side}"]
+    return f"{'hit' if row[f'hit_{side}'] else 'clear'}{'' if np.isnan(time) else f' at {time:.9g}'} ({row[f'outcome_{side}']})"
+
+
+def _rates(both: pd.DataFrame) -> pd.DataFrame:
+    sides = []
+    for s in "ab":
+        columns = {f"{c}_{s}": c for c in ("outcome", "status", "label", "can_tunnel", "tunnelled", "question")}
+        sides.append(metrics.rates(both.rename(columns=columns), ["question", "method"]))
+    counts = ["answered", "hits", "misses", "clears", "false_alarms", "conservative", "tunnelled"]
+    table = sides[0].merge(sides[1], on=["question", "method"], suffixes=("_before", "_after"))
+    moved = (table[[f"{c}_before" for c in counts]].to_numpy() != table[[f"{c}_after" for c in counts]].to_numpy()).any(axis=1)
+    return table.loc[moved, ["question", "method", *(f"{c}_{when}" for c in counts for when in ("before", "after"))]].reset_index(drop=True)
+
+
+def _times(first: Store, second: Store) -> pd.DataFrame:
+    columns = ["question", "method", "ratio", "low", "high", "pairs"]
+    if not (first.has("timings.parquet") and second.has("timings.parquet")):
+        return pd.DataFrame(columns=columns)
+    both = metrics.case_costs(first).merge(metrics.case_costs(second), on=["question", "method", "case"], suffixes=("_a", "_b"))
+    both = both.assign(ratio=both.ns_b / both.ns_a)
+    return metrics.medians(both, "ratio", ["question", "method"]).rename(columns={"median": "ratio", "cases": "pairs"})[columns]
