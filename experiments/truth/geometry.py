@@ -11,7 +11,7 @@ from flint import arb, fmpq, fmpz, fmpz_mat
 
 from .balls import add, cross, dot, norm, rational, rotation, vector
 
-_reaches, _parts, _boxes, _integers = (WeakKeyDictionary() for _ in range(4))
+CACHES = _reaches, _parts, _boxes, _integers = tuple(WeakKeyDictionary() for _ in range(4))  #: by body
 
 
 class Pair:
