@@ -58,7 +58,7 @@ def report(store: Store) -> list[tables.Table]:
     if store.has("timings.parquet"):
         figures.accuracy_speed(store)
     if store.has("observations.parquet"):
-        html_report(store)
+        html_report(store, made)
     return made
 
 

@@ -25,7 +25,7 @@ def links(table, found: pd.DataFrame) -> list[list[dict | None]]:
     scenarios, levels (any of them); tag ([name, values], any of them); detail (its beginning); kind (see `kinds`)."""
     if table.choice:
         return _chosen(table, found)
-    scenarios, bands = set(found.scenario), set(_bands(found))
+    scenarios, bands = set(found.scenario.unique()), set(_bands(found))
     text, place = table.text, {}
     for question in QUESTIONS:
         if f"-{question}" in table.name:

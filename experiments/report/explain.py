@@ -72,7 +72,7 @@ def from_file(path: Path) -> Explained:
     except KeyError as error:
         raise ConfigError(f"The case file {path} lacks the field {error}. It needs \"case\" and \"bodies\": see the head of experiments/report/explain.py, or write one "
                           "from a run with: ofg-bench explain CASE --run RUN --save case.json") from error
-    except (TypeError, AttributeError, IndexError) as error:
+    except (TypeError, ValueError, AttributeError, IndexError) as error:
         raise ConfigError(f"The case file {path} has a field of the wrong form ({error}). Compare it with one written by: ofg-bench explain CASE --run RUN --save case.json") from error
     return Explained(case, truth, case_row(case, truth, 0), _typed(said))
 

@@ -26,12 +26,13 @@ from .certificate import drawable
 CODES = {"right": "r", "miss": "m", "false alarm": "f", "conservative": "c", "no label": "n", "unsupported": "u", "error": "e", "timeout": "t"}
 SHOWN = 24  # cases of each kind that the gallery can draw for each method
 BYTES = 8_000_000  # of bodies, before compression: what a page may weigh
+CASES = 3_000  # that a page can draw: what its making may take
 EXACT = 5_000  # vertices up to which a body is never rounded
 NATIVE = {"apart": ("overlap", "apart"), "overlapping": ("overlap", "deep"), "flight": ("translation", "hit")}  # of experiments/native.py: ours
 OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
 
-def of_run(store: Store) -> dict:
+def of_run(store: Store, made_tables=None) -> dict:
     """Everything the page of a run shows; see page/data.js for its reading."""
     rows, found = store.read("cases.parquet"), metrics.outcomes(store)
     made = {
@@ -40,7 +41,7 @@ def of_run(store: Store) -> dict:
     }
     made["methods"] = [_method(label, made["run"]["versions"]) for label in made["labels"]]
     made["lanes"] = {**(_lanes(store, rows) if store.has("timings.parquet") else {}), **_native(store, set(made["labels"]))}
-    made["tables"] = [_table(t, found) for t in tables.build(store)]
+    made["tables"] = [_table(t, found) for t in made_tables or tables.build(store)]
     return {**made, **_shapes(store, rows, found)}
 
 
@@ -53,7 +54,7 @@ def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict) 
             "lanes": {}, "tables": [], **_observations(found, rows)}
     made["methods"] = [_method(label, versions) for label in made["labels"]]
     shapes = Shapes(float("inf"), anew=True)
-    shapes.add(0, case, truth, [label for label in made["labels"] if label.split()[0] == "ofg"], 20 * SHOWN)
+    shapes.add(0, case, truth, [label for label in made["labels"] if label.split()[0] == "ofg"], len(made["labels"]))
     return {**made, **shapes.packed()}
 
 
@@ -170,10 +171,13 @@ def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
     order = list(dict.fromkeys([*wanted, *rows.case]))
     place = {case: i for i, case in enumerate(rows.case)}
     known = {case.id: (case, truth) for case, truth in cases_of(rows, store.read("bodies.parquet"))}
-    shapes, ours = Shapes(BYTES), [label for label in found.method.unique() if label.split()[0] == "ofg"]
+    shapes, ours = Shapes(BYTES), found[found.method.str.split().str[0] == "ofg"]
+    first = ours.method.iloc[:1].tolist()
+    wrong = ours[ours.outcome.isin(["miss", "false alarm"]) | (ours.error > 0)].groupby("case", sort=False).method.agg(list)
     for i in order:
-        labels = [label for label in wanted.get(i, ()) if label.split()[0] == "ofg"] or ours[:1]
-        shapes.add(place[i], *known[i], labels, SHOWN)
+        labels = [label for label in wanted.get(i, ()) if label.split()[0] == "ofg"]
+        labels = list(dict.fromkeys([*labels, *wrong.get(i, [])]))
+        shapes.add(place[i], *known[i], labels or first, OVERLAYS)
     return shapes.packed()
 
 
@@ -201,15 +205,16 @@ class Shapes:
         self.room, self.anew, self.bytes = room, anew, bytearray()
         self.bodies, self.drawn, self.proofs, self.ofg = [], {}, {}, {}
         self._known: dict[str, int] = {}
+        self._decomposed: dict[str, Body] = {}
 
     def add(self, place: int, case, truth, labels: Iterable[str], most: int) -> None:
         q = case.query
         cost = sum(_cost(body) for body in {b.digest: b for b in (q.a, q.b)}.values() if body.digest not in self._known)
-        if len(self.bytes) + cost > self.room:
+        if len(self.bytes) + cost > self.room or len(self.drawn) == CASES:
             return
         self.drawn[place] = [self._body(q.a), self._body(q.b)]
         self.proofs[place] = drawable(truth.certificate)
-        for label in list(labels)[:min(OVERLAYS, most)]:
+        for label in list(labels)[:most]:
             made = self._trace(q, label, truth)
             if made:
                 self.ofg.setdefault(place, {})[label] = made
@@ -225,7 +230,7 @@ class Shapes:
             if not self.anew and not all(body.kind != "mesh" or kept_at(body).is_file() for body in (query.a, query.b)):
                 return None
             try:
-                pieces = [ofg.decompose(query.a), ofg.decompose(query.b)]
+                pieces = [self._pieces(query.a), self._pieces(query.b)]
             except ofg.BodyError:
                 return None
             query = Query(query.question, *pieces, query.pose_a, query.pose_b, query.motion)
@@ -236,6 +241,11 @@ class Shapes:
         else:
             made["bodies"] = [self._known[d] for d in seen]
         return made
+
+    def _pieces(self, body: Body) -> Body:
+        if body.digest not in self._decomposed:
+            self._decomposed[body.digest] = ofg.decompose(body)
+        return self._decomposed[body.digest]
 
     def _body(self, body: Body) -> int:
         if body.digest in self._known:

@@ -45,14 +45,14 @@ def trace(query: Query, options: dict, impact: float = nan) -> dict:
 
     answer: hit, time, found, faces that met ([a, b] or None). stopped: "" or the step that ended it before a face was tested.
     pieces: those asked. window: [from, to], parts: of how many. a, b: selected faces, nearest first (indices into the faces of the whole body).
-    vertices_b: virtual edges of B's vertices too. should: faces that do meet at `time`, and their place in the order of all faces by
+    vertices_b: virtual edges of B's vertices too. selections: at how many times. should: faces that do meet at `time`, and their place in the order of all faces by
     distance ([a, b], None where they belong to a piece that was not asked), or None where no surfaces meet.
     """
     answer = ofg.ask(query, **options)
     chosen = _Options(**options)
     ma, mb = _pieces(query, chosen, answer)
     made = {"hit": answer.hit, "time": None if np.isnan(answer.time) else answer.time, "found": answer.found,
-            "pieces": [ma.piece, mb.piece], "vertices_b": chosen.both_vertices, "stopped": ""}
+            "pieces": [ma.piece, mb.piece], "vertices_b": chosen.both_vertices, "selections": chosen.selections, "stopped": ""}
     made["met"] = [answer.faces[0] + ma.first, answer.faces[1] + mb.first] if answer.hit and min(answer.faces) >= 0 else None
     moving = query.question != "overlap"
     parts = _parts(query, ma, chosen) if moving else 1

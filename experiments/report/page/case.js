@@ -3,7 +3,7 @@ let openView = null;
 
 async function caseView(root, i, method) {
   const c = D.cases, moving = c.question[i] !== "overlap", drawable = Boolean(D.drawn[i]), labels = Object.keys(D.ofg[i] || {});
-  const view = { overlay: labels.includes(method) ? method : labels[0] || "", t: moving ? (c.t_hi[i] ?? 0.5) : 0 };
+  const view = { overlay: labels.includes(method) ? method : labels[0] || "", t: moving ? c.t_hi[i] ?? D.time[D.method.get(method)]?.get(i) ?? 0.5 : 0 };
   const canvas = el("canvas", { tabindex: "0", class: "stage", "aria-label": "The two bodies in 3D. Arrow keys turn, plus and minus go closer and away, 0 shows all." });
   const said = el("p", { class: "said", role: "status" }), legend = el("ul", { class: "legend" }), ofgBox = el("div", { class: "ofg" });
   const slider = el("input", { type: "range", min: "0", max: "1", step: "0.001", value: String(view.t), "aria-label": "time in the step", class: "time", oninput: () => go(Number(slider.value)) });
@@ -116,7 +116,8 @@ function ofgWords(i, label, x) {
   const c = D.cases, moving = c.question[i] !== "overlap", sa = D.bodies[x.bodies[0]], sb = D.bodies[x.bodies[1]], lines = [];
   const of = (n, b, piece) => `${n} of the ${b.pieces && piece >= 0 ? b.pieces[piece][1] : b.f[2]} faces`;
   lines.push(`It took ${of(x.a.length, sa, x.pieces[0])} of A${sa.pieces ? ` (piece ${x.pieces[0] + 1} of ${sa.pieces.length})` : ""} and ${of(x.b.length, sb, x.pieces[1])} of B${sb.pieces ? ` (piece ${x.pieces[1] + 1} of ${sb.pieces.length})` : ""}` +
-    (x.parts > 1 ? `, in the part of the step from ${number(x.window[0])} to ${number(x.window[1])} (one of ${x.parts})` : moving ? ", chosen at the start pose" : "") + ".");
+    (x.parts > 1 ? `, in the part of the step from ${number(x.window[0])} to ${number(x.window[1])} (one of ${x.parts})` : "") + (moving ? { 1: ", chosen at the start", 2: ", chosen at the start and the end", 3: ", chosen at the start, at the end and where the centres pass closest" }[x.selections] : "") + ".");
+  if (x.bodies.some((b, k) => b !== D.drawn[i][k])) lines.push("It was asked about CoACD's pieces of the mesh, which are another body than the mesh near its surface.");
   if (x.hit) {
     lines.push(`It answered hit${x.time !== null ? ` at t = ${number(x.time, 8)}` : ""}: ${({ start: "faces that meet at the start", end: "faces that meet at the end", "edge-face": "a virtual edge of A meets a face of B", "face-edge": "a virtual edge of B meets a face of A", "edge-edge": "a moving edge meets an edge", inside: "one body lies inside the other" })[x.found] || x.found}${x.met ? ` (face ${x.met[0]} of A, face ${x.met[1]} of B)` : ""}.`);
     if (c.label[i] === "clear") lines.push("The certificate says that nothing meets.");

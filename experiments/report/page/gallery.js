@@ -104,7 +104,7 @@ async function paint() {
 
 function dialog() {
   const close = () => box.close();
-  const box = el("dialog", { id: "case", "aria-label": "One case" }, el("div", { class: "dialog-bar" },
+  const box = el("dialog", { id: "case", "aria-label": "One case", tabindex: "-1", autofocus: true }, el("div", { class: "dialog-bar" },
     el("button", { type: "button", onclick: () => step(-1) }, "← Previous"), el("button", { type: "button", onclick: () => step(1) }, "Next →"), el("span", { id: "case-place", class: "note" }), el("button", { type: "button", class: "close", onclick: close }, "Close")), el("div", { id: "case-content" }));
   box.addEventListener("close", () => {
     openView?.close();

@@ -18,7 +18,7 @@ const share = (count, total) => (total ? `${count}/${total}` : "–");
 function number(x, digits = 3) {
   if (x === null || x === undefined || Number.isNaN(x)) return "–";
   if (x === 0) return "0";
-  const a = Math.abs(x), text = a >= 1e-3 && a < 1e6 ? String(Number(x.toPrecision(digits))) : x.toExponential(Math.max(0, digits - 1)).replace("e+", "e");
+  const a = Math.abs(x), text = a >= 1e-3 && a < 1e6 ? String(Number(x.toPrecision(digits))) : Number(x.toPrecision(digits)).toExponential().replace("e+", "e");
   return text.replace(/-/g, "\u2212");
 }
 
