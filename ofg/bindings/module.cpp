@@ -65,20 +65,25 @@ struct Prepared {
   ofg::Options options;
   Algorithm how;
   bool moving, single;
-  ofg::Workspace<double> fine;
-  ofg::Workspace<float> coarse;
+
+  // One for all, so that the memory of a query is as warm as in a loop over many; the interpreter lock is held while it is used.
+  template <class T>
+  static ofg::Workspace<T>& workspace() {
+    static ofg::Workspace<T> shared;
+    return shared;
+  }
 
   Prepared(nb::object oa, nb::object ob, Doubles poses, Doubles motions, const ofg::Options& o, int how_, bool moving_, bool single_)
       : keep_a(oa), keep_b(ob), a(nb::cast<const Solid&>(oa)), b(nb::cast<const Solid&>(ob)), pose_a(pose_of(poses.data())),
         pose_b(pose_of(poses.data() + 7)), motion_a(motion_of(motions.data())), motion_b(motion_of(motions.data() + 7)), options(o),
         how(Algorithm(how_)), moving(moving_), single(single_) {
-    fine.reserve(a.fine, b.fine);
-    coarse.reserve(a.coarse, b.coarse);
+    if (single) workspace<float>().reserve(a.coarse, b.coarse);
+    else workspace<double>().reserve(a.fine, b.fine);
   }
 
   ofg::Answer answer() {
     const ofg::Track track(pose_a, pose_b, motion_a, motion_b);
-    return single ? ask(how, moving, a, b, track, options, coarse) : ask(how, moving, a, b, track, options, fine);
+    return single ? ask(how, moving, a, b, track, options, workspace<float>()) : ask(how, moving, a, b, track, options, workspace<double>());
   }
   nb::tuple call() {
     const ofg::Answer x = answer();
