@@ -19,14 +19,19 @@ class UnknownMethod(ValueError):
     """No method has this name, or its specification cannot be read; the message says what can be done."""
 
 
+GROUP = "ofg.methods"  # entry points of installed packages that bring methods: a class, or a list of them
+
+
 @cache
 def methods() -> dict[str, type[Method]]:
-    """name -> class of every method in `baselines/`, by name. Imports no engine."""
+    """name -> class of every method in `baselines/` and of installed packages, by name. Imports no engine of `baselines/`."""
     import baselines
 
     found: dict[str, type[Method]] = {}
     for module in pkgutil.iter_modules(baselines.__path__):
         _collect(importlib.import_module(f"baselines.{module.name}"), found)
+    for entry in importlib.metadata.entry_points(group=GROUP):
+        _add(_entered(entry), found)
     return dict(sorted(found.items()))
 
 
@@ -90,8 +95,24 @@ def version(cls: type[Method]) -> str:
         return "absent"
 
 
+def _entered(entry) -> list[type[Method]]:
+    """The methods of an entry point, which names a subclass of Method or a list of them."""
+    try:
+        loaded = entry.load()
+    except Exception as error:
+        raise ValueError(f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded ({type(error).__name__}: {error}); mend or uninstall its package.") from error
+    found = list(loaded) if isinstance(loaded, (list, tuple)) else [loaded]
+    if not found or not all(isinstance(cls, type) and issubclass(cls, Method) for cls in found):
+        raise ValueError(f"The entry point '{entry.name}' of the group {GROUP} names {loaded!r}; it must name a subclass of baselines.contract.Method or a list of them.")
+    return found
+
+
 def _collect(module: ModuleType, found: dict[str, type[Method]]) -> None:
-    for cls in getattr(module, "METHODS", ()):
+    _add(getattr(module, "METHODS", ()), found)
+
+
+def _add(classes, found: dict[str, type[Method]]) -> None:
+    for cls in classes:
         if cls.name in found:
             raise ValueError(f"Two methods are named '{cls.name}': {found[cls.name].__module__} and {cls.__module__}; rename one.")
         found[cls.name] = cls

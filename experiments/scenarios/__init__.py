@@ -7,16 +7,18 @@ import importlib
 import importlib.util
 import pkgutil
 from functools import cache
+from importlib.metadata import entry_points
 from pathlib import Path
 
 from experiments.scenario import Scenario
 
+GROUP = "ofg.scenarios"  # entry points of installed packages that bring scenarios
 _NOT_SCENARIOS = {"aim", "draw", "page"}
 
 
 @cache
 def scenarios() -> dict[str, Scenario]:
-    """All families by name, in alphabetical order. Adding one means adding a file here, and nothing else."""
+    """All families by name, in alphabetical order, then those of installed packages. Adding one means adding a file here, and nothing else."""
     found = {}
     for module in sorted(m.name for m in pkgutil.iter_modules(__path__)):
         if not module.startswith("_") and module not in _NOT_SCENARIOS:
@@ -25,6 +27,23 @@ def scenarios() -> dict[str, Scenario]:
                 raise ValueError(f"Scenario file {module}.py defines a scenario named '{scenario.name}'; the two must be the "
                                  "same, so that a row of a table leads to its file. Rename one of them.")
             found[module] = scenario
+    for entry in entry_points(group=GROUP):
+        for scenario in _entered(entry):
+            if scenario.name in found:
+                raise ValueError(f"The entry point '{entry.name}' of the group {GROUP} brings a scenario '{scenario.name}', a name that is taken; rename one.")
+            found[scenario.name] = scenario
+    return found
+
+
+def _entered(entry) -> list[Scenario]:
+    """The scenarios of an entry point, which names a Scenario or a list of them."""
+    try:
+        loaded = entry.load()
+    except Exception as error:
+        raise ValueError(f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded ({type(error).__name__}: {error}); mend or uninstall its package.") from error
+    found = [loaded] if isinstance(loaded, Scenario) else list(loaded) if isinstance(loaded, (list, tuple)) else []
+    if not found or not all(isinstance(s, Scenario) for s in found):
+        raise ValueError(f"The entry point '{entry.name}' of the group {GROUP} names {loaded!r}; it must name a Scenario or a list of them.")
     return found
 
 
