@@ -40,7 +40,7 @@ async function caseView(root, i, method) {
     view.overlay = label;
     const x = D.ofg[i]?.[label] || null;
     ofgBox.replaceChildren(...(labels.length ? [el("h3", {}, "What OFG looked at"), labels.length > 1 ? select("Configuration", labels, label, look) : el("p", { class: "note" }, label), ofgWords(i, label, x)] : []));
-    legend.replaceChildren(...[["--body-a", "A" + (moving ? ", moving" : ""), 1], ["--body-b", moving ? "B, at rest" : "B", 1], ["--plane", "separating plane", Boolean(D.proofs[i]?.clear)], ["--met", "common point" + (x?.met ? ", faces that met" : ""), D.proofs[i]?.hit || x?.met], ["--chosen", "virtual edges", x && moving], ["--should", "faces that should have met", x?.should && !x.hit]]
+    legend.replaceChildren(...[["--body-a", "A" + (moving ? ", moving" : ""), 1], ["--body-b", moving ? "B, at rest" : "B", 1], ["--plane", "separating plane", Boolean(D.proofs[i]?.clear)], ["--met", [D.proofs[i]?.hit ? "common point" : "", x?.met ? "faces that met, by OFG" : ""].filter(Boolean).join(", "), D.proofs[i]?.hit || x?.met], ["--chosen", "virtual edges", x && moving], ["--should", "faces that should have met", x?.should && !x.hit]]
       .filter(([, , on]) => on).map(([name, text]) => el("li", {}, el("i", { style: `background:var(${name})` }), text)));
     marks.replaceChildren(...timeMarks(i, label, method));
     if (scene) { await scene.show(g, x && (x.hit ? { ...x, should: null } : x)); go(view.t); }

@@ -75,20 +75,20 @@ def board(page) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=[h.strip(" ↑↓") for h in head]).set_index("Method")
 
 
-@pytest.mark.parametrize("question", ["overlap", "translation", "motion"])
-def test_the_leaderboard_counts_as_the_run_does(open_page, written, found, question):
+def test_the_leaderboard_counts_as_the_run_does(open_page, written, found):
     page = open_page(written)
-    choose(page, question)
-    shown = board(page)
-    rates = metrics.rates(found[found.question == question], ["method"]).set_index("method")
-    answering = rates[rates.answered > 0]
-    assert set(shown.index) == set(answering.index)
-    for row in answering.itertuples():
-        label = row.Index
-        assert shown.loc[label, "Misses"] == (f"{row.misses}/{row.hits}" if row.hits else "–")
-        assert shown.loc[label, "False alarms"] == (f"{row.false_alarms}/{row.clears}" if row.clears else "–")
-        if question != "overlap":
-            assert shown.loc[label, "Tunnelled"] == (f"{row.tunnelled}/{row.can_tunnel}" if row.can_tunnel else "–")
+    for question in ("overlap", "translation", "motion"):
+        choose(page, question)
+        shown = board(page)
+        rates = metrics.rates(found[found.question == question], ["method"]).set_index("method")
+        answering = rates[rates.answered > 0]
+        assert set(shown.index) == set(answering.index)
+        for row in answering.itertuples():
+            label = row.Index
+            assert shown.loc[label, "Misses"] == (f"{row.misses}/{row.hits}" if row.hits else "–")
+            assert shown.loc[label, "False alarms"] == (f"{row.false_alarms}/{row.clears}" if row.clears else "–")
+            if question != "overlap":
+                assert shown.loc[label, "Tunnelled"] == (f"{row.tunnelled}/{row.can_tunnel}" if row.can_tunnel else "–")
 
 
 def test_intervals_are_those_of_scipy(open_page, written):
@@ -97,13 +97,13 @@ def test_intervals_are_those_of_scipy(open_page, written):
     assert np.allclose(page.evaluate("(pairs) => pairs.map(([k, n]) => wilson(k, n))", pairs), [metrics.wilson(k, n) for k, n in pairs], rtol=1e-9, atol=1e-12)
 
 
-@pytest.mark.parametrize("by", [("question",), ("question", "faces"), ("question", "faces", "situation")])
-def test_times_are_those_of_the_tables(open_page, written, run, by):
+def test_times_are_those_of_the_tables(open_page, written, run):
     page, names = open_page(written), {"question": "question", "faces": "sizes", "situation": "situation"}
-    for row in metrics.costs(run, by).itertuples():
-        link = {names[key]: getattr(row, key) for key in by}
-        here = page.evaluate("([label, link]) => cost(D.method.get(label), 'python', casesOf(link))", [row.method, link])
-        assert np.allclose([here["gross"], here["net"], here["n"]], [row.gross, row.net, row.cases]), (row.method, link)
+    for by in [("question",), ("question", "faces"), ("question", "faces", "situation")]:
+        for row in metrics.costs(run, by).itertuples():
+            link = {names[key]: getattr(row, key) for key in by}
+            here = page.evaluate("([label, link]) => cost(D.method.get(label), 'python', casesOf(link))", [row.method, link])
+            assert np.allclose([here["gross"], here["net"], here["n"]], [row.gross, row.net, row.cases]), (row.method, link)
 
 
 def test_filters_narrow_every_figure(open_page, written, found):
