@@ -135,6 +135,8 @@ class Prover {
     Scene<double> sd_;
     Scene<dd> sq_;
     double theta_, blur_;
+    mat<double> pose_;
+    double posed_ = -1;
     int attempts_ = 0;  // pairs of elements in which a common point was sought and not found, at one instant
     Effort effort_;
     std::vector<Moving<double>> ra_;
@@ -177,12 +179,22 @@ class Prover {
         return true;
     }
 
-    double sphere_gap(int na, int nb, double t) {  // of the groups' bounding spheres: the order of visits
-        auto c = A_.nodes[na].centre;
-        vec<double> x = sd_.turn(t) * (sd_.RA * vec<double>{c[0], c[1], c[2]}) + sd_.d * t;
-        c = B_.nodes[nb].centre;
-        vec<double> y = sd_.RB * vec<double>{c[0], c[1], c[2]} + sd_.dp;
-        return norm(x - y) - A_.nodes[na].radius - B_.nodes[nb].radius;
+    // Lower bound on the distance of two groups: their bounding spheres, and the sphere of each against the box of the other.
+    double sphere_gap(int na, int nb, double t) {
+        if (t != posed_) {
+            auto T = sd_.turn(t);
+            vec<double> c[3] = {{sd_.RA.r[0].x, sd_.RA.r[1].x, sd_.RA.r[2].x}, {sd_.RA.r[0].y, sd_.RA.r[1].y, sd_.RA.r[2].y},
+                                {sd_.RA.r[0].z, sd_.RA.r[1].z, sd_.RA.r[2].z}};
+            for (int i = 0; i < 3; ++i) pose_.r[i] = {dot(T.r[i], c[0]), dot(T.r[i], c[1]), dot(T.r[i], c[2])};
+            posed_ = t;
+        }
+        auto &a = A_.nodes[na], &b = B_.nodes[nb];
+        auto shift = sd_.d * t;
+        vec<double> x = pose_ * vec<double>{a.centre[0], a.centre[1], a.centre[2]} + shift;
+        vec<double> y = sd_.RB * vec<double>{b.centre[0], b.centre[1], b.centre[2]} + sd_.dp;
+        double spheres = norm(x - y) - a.radius - b.radius;
+        double boxes = std::max(outside(a, transposed(pose_, y - shift)) - b.radius, outside(b, transposed(sd_.RB, x - sd_.dp)) - a.radius);
+        return std::max(spheres, boxes);
     }
     bool split_a(int na, int nb) const {
         if (A_.nodes[na].left < 0) return false;
@@ -249,9 +261,8 @@ class Prover {
     void nearest(int na, int nb, double t, double& best, Common* common = nullptr, bool* found = nullptr) {
         if (effort_.spent() || sphere_gap(na, nb, t) >= best) return;
         if (best <= 0 && (!common || *found || attempts_ > 8)) return;
-        double least = std::min(A_.nodes[na].radius, B_.nodes[nb].radius);
         double big = double(A_.nodes[na].v.size() + B_.nodes[nb].v.size());
-        if (leaf_pair(na, nb) || (best < 1e300 && sphere_gap(na, nb, t) > (big > 256 ? 0 : -0.7 * least))) {
+        if (leaf_pair(na, nb) || (best < 1e300 && (big <= 48 || sphere_gap(na, nb, t) > 0))) {
             auto P = quick(na, nb);
             effort_.done += double(P.r.size() + P.b.size());
             const auto& x = P.at(t);

@@ -6,7 +6,14 @@
 
 namespace truth {
 
-struct Node { int lo, hi, left = -1, right = -1; Vertices v; std::array<double, 3> centre; double radius, far; };  // far: of a vertex from the origin
+struct Node { int lo, hi, left = -1, right = -1; Vertices v; std::array<double, 3> centre, low, high; double radius, far; };  // far: of a vertex from the origin
+
+// Distance of a point of the body's frame from the node's bounding box.
+inline double outside(const Node& n, vec<double> y) {
+    double x = std::max({n.low[0] - y.x, y.x - n.high[0], 0.0}), z = std::max({n.low[1] - y.y, y.y - n.high[1], 0.0}),
+           w = std::max({n.low[2] - y.z, y.z - n.high[2], 0.0});
+    return std::sqrt(x * x + z * z + w * w);
+}
 
 class Solid {
   public:
@@ -60,11 +67,7 @@ class Solid {
     void nearest(int id, vec<dd> y, double& best, vec<double>& away) const {
         auto& n = nodes[id];
         if (n.left >= 0) {
-            auto far = [&](int i) {
-                auto& c = nodes[i].centre;
-                double x = double(y.x) - c[0], z = double(y.y) - c[1], w = double(y.z) - c[2];
-                return std::sqrt(x * x + z * z + w * w) - nodes[i].radius;
-            };
+            auto far = [&](int i) { return outside(nodes[i], {double(y.x), double(y.y), double(y.z)}); };
             double l = far(n.left), r = far(n.right);
             for (auto [d, i] : {l < r ? std::pair{l, n.left} : std::pair{r, n.right}, l < r ? std::pair{r, n.right} : std::pair{l, n.left}})
                 if (d < best) nearest(i, y, best, away);
@@ -126,6 +129,7 @@ class Solid {
             if (high[c] - low[c] > high[axis] - low[axis]) axis = c;
         }
         for (auto& v : n.v) r = std::max(r, std::hypot(v[0] - n.centre[0], v[1] - n.centre[1], v[2] - n.centre[2]));
+        n.low = low, n.high = high;
         n.radius = r, n.far = 0;
         for (auto& v : n.v) n.far = std::max(n.far, std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
         if (hi - lo > 1) {
