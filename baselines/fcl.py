@@ -223,7 +223,10 @@ class FclCcdConvex(_Convex, _DefaultRequest):
 
 
 class _Advancement(_Continuous):
-    """Conservative advancement at its best: CCDM_TRANS for translations, CCDM_LINEAR for motions, 1000 iterations."""
+    """Conservative advancement at its best: CCDM_TRANS for translations, CCDM_LINEAR for motions, 1000 iterations.
+
+    Of 497 certified sweeps (nine families) 26 missed and 11 false hits on hulls; neither units nor toi_err change that.
+    """
 
     configuration = "best effort"
     questions = frozenset({"translation", "motion"})
@@ -249,6 +252,7 @@ class _Naive(_Continuous):
     configuration = "best effort"
     questions = frozenset({"translation", "motion"})
     parameters = {"iterations": 10}
+    cheapest = {"iterations": 2}
     advancement = "CCDC_NAIVE"
     guarantee = "discrete test at evenly spaced samples of FCL's own interpolation; blind between them"
 

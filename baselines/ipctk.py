@@ -62,6 +62,7 @@ class IpctkCcd(Method):
     gives_time = True
     guarantee = "never misses on straight vertex paths, never late (interval inclusion, tolerance 1e-6); surfaces only"
     parameters = {"n": 1, "max_iterations": 10_000_000}
+    cheapest = {"n": 1}
 
     def __init__(self, **parameters):
         super().__init__(**parameters)
@@ -94,7 +95,8 @@ class IpctkCcdExact(IpctkCcd):
     """conservative_rescaling = 1: the time as found. 1 ms on cubes head-on, within 1e-7.
 
     Where edges meet in parallel the search does not converge and ends at max_iterations, with a time that is early: aligned cubes at 0.3
-    are 3e-3 early after 30 ms (1e4 iterations), 2e-4 after 0.4 s (1e5), 2e-4 after 3 s (1e6); the default is 1e7.
+    are 3e-3 early after 30 ms (1e4 iterations), 2e-4 after 0.4 s (1e5), 2e-4 after 3 s (1e6); the default is 1e7. A start within 1e-8 of
+    touching can take minutes whatever is set: the search is repeated until the time is not 0.
     """
 
     name = "ipctk-ccd-exact"

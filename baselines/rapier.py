@@ -155,8 +155,10 @@ class RapierCastMesh(_Mesh, _Cast):
 
 
 class _CastInLegs(_Cast):
+    # One nonlinear cast missed 24 of 42 hits of bodies that spin by half a turn beside another; 8 legs, or 32, missed none of them.
     configuration = "best effort"
     parameters = {"legs": 8}
+    cheapest = {"legs": 1}
 
     def __init__(self, **parameters):
         super().__init__(**parameters)
