@@ -22,7 +22,7 @@ KNOWN_DEFECTS = {
 }
 
 # Asked with other parameters than the default, which would take minutes.
-QUICKER = {"ipctk-ccd": "ipctk-ccd max_iterations=1000"}
+QUICKER = {name: f"{name} max_iterations=1000" for name in ("ipctk-ccd", "ipctk-ccd-exact")}
 
 
 @cache
