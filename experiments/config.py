@@ -101,10 +101,9 @@ class RunConfig(_Strict):
         """All specifications, the optional ones last."""
         return self.methods + self.optional_methods
 
-    def same_rows(self, other: RunConfig) -> bool:
-        """Whether the rows of both runs are the same: they differ in words and tables alone."""
-        words = {"title", "about", "tables"}
-        return self.model_dump(exclude=words) == other.model_dump(exclude=words)
+    def differences(self, other: RunConfig) -> list[str]:
+        """Fields by which the rows of two runs differ; words and tables are not among them."""
+        return [k for k, v in self.model_dump(exclude={"title", "about", "tables"}).items() if v != other.model_dump()[k]]
 
 
 def presets() -> list[str]:

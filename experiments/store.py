@@ -30,9 +30,7 @@ class Store:
     def begin(self, config: RunConfig) -> None:
         """Claim the folder for this configuration, or go on with the same one. StoreError where another run is there."""
         if self.path("config.json").exists():
-            if not config.same_rows(self.config):
-                wanted, found = config.model_dump(), self.config.model_dump()
-                changed = ", ".join(k for k in wanted if found[k] != wanted[k])
+            if changed := ", ".join(config.differences(self.config)):
                 raise StoreError(f"The folder {self.folder} holds a run of another configuration (it differs in: {changed}). "
                                  "Choose another folder with --out, or remove that one.")
         elif self.folder.exists() and any(self.folder.iterdir()):

@@ -69,9 +69,14 @@ def save(store: Store, tables: list[Table]) -> None:
         if path.suffix in (".csv", ".md", ".tex") and path.stem not in {table.name for table in tables}:
             path.unlink()
     for table in tables:
-        store.write_text(table.numbers.to_csv(index=False, float_format="%.9g", lineterminator="\n"), "tables", f"{table.name}.csv")
-        store.write_text(markdown(table), "tables", f"{table.name}.md")
-        store.write_text(latex(table), "tables", f"{table.name}.tex")
+        for suffix, text in texts(table).items():
+            store.write_text(text, "tables", f"{table.name}.{suffix}")
+
+
+def texts(table: Table) -> dict[str, str]:
+    """The files of a table: suffix -> content."""
+    csv = table.numbers.to_csv(index=False, float_format="%.9g", lineterminator="\n")
+    return {"csv": csv, "md": markdown(table), "tex": latex(table)}
 
 
 def latex(table: Table) -> str:
