@@ -122,8 +122,9 @@ def _find(name: str) -> type[Method]:
     known = methods()
     if name in known:
         return known[name]
-    close = difflib.get_close_matches(name, known, n=3, cutoff=0.4) or sorted(known)
-    raise UnknownMethod(f"No method is named '{name}'. Closest: {', '.join(close)}. `ofg-bench list` prints all {len(known)}; a method "
+    close = difflib.get_close_matches(name, known, n=3, cutoff=0.4)
+    closest = f" Closest: {', '.join(close)}." if close else ""
+    raise UnknownMethod(f"No method is named '{name}'.{closest} `ofg-bench list` prints all {len(known)}; a method "
                         "of your own is given by its file.")
 
 

@@ -1,5 +1,7 @@
 """The native lane: its case file, its protocol and its errors, with the one engine that is always at hand."""
 
+import fcntl
+import os
 import shutil
 import struct
 import subprocess
@@ -19,12 +21,21 @@ def folder(tmp_path_factory):
     """`lane` and OFG's plugin, compiled without cmake and without any other engine."""
     if not COMPILER:
         pytest.skip("no C++ compiler called c++")
-    to = tmp_path_factory.mktemp("native")
-    (to / "plugins").mkdir()
-    flags = [COMPILER, "-std=c++20", "-O1", "-I", str(native.SOURCE), "-I", str(native.SOURCE.parents[1] / "ofg" / "include")]
+    base = tmp_path_factory.getbasetemp()
+    to = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "native"  # one for all workers
+    (to / "plugins").mkdir(parents=True, exist_ok=True)
+    with open(to / "lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (to / "done").exists():
+            _compile(to)
+            (to / "done").touch()
+    return to
+
+
+def _compile(to):
+    flags = [COMPILER, "-std=c++20", "-O0", "-I", str(native.SOURCE), "-I", str(native.SOURCE.parents[1] / "ofg" / "include")]
     subprocess.run([*flags, str(native.SOURCE / "main.cpp"), "-o", str(to / "lane"), "-ldl"], check=True)
     subprocess.run([*flags, "-fPIC", "-shared", "-ffp-contract=off", str(native.SOURCE / "ofg.cpp"), "-o", str(to / "plugins" / "ofg.so")], check=True)
-    return to
 
 
 def queries() -> list[Query]:
