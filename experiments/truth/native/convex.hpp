@@ -181,7 +181,7 @@ template <class T> std::optional<Inside> inside(const Points<T>& A, const Points
     };
     Points<T> a(A), b(B), one(1);
     const double least = std::is_same_v<T, double> ? 1e-9 : 1e-25;
-    for (double eps = 0.5; eps > least; eps *= eps > 0.06 ? 0.25 : 0.03)
+    for (double eps = std::is_same_v<T, double> ? 0.5 : 3e-3; eps > least; eps *= eps > 0.06 ? 0.25 : 0.03)
         for (int attempt = 0; attempt < 2; ++attempt) {
             auto ca = centre(A), cb = centre(B);
             for (size_t i = 0; i < A.size(); ++i) a[i] = A[i] + (ca - A[i]) * T(eps);
