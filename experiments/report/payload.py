@@ -29,6 +29,7 @@ BYTES = 8_000_000  # of bodies, before compression: what a page may weigh
 CASES = 3_000  # that a page can draw: what its making may take
 EXACT = 5_000  # vertices up to which a body is never rounded
 NATIVE = {"apart": ("overlap", "apart"), "overlapping": ("overlap", "deep"), "flight": ("translation", "hit")}  # of experiments/native.py: ours
+SELECTED = 2_000  # faces up to which a selection is drawn; of k = inf on a large mesh the page only says how many
 OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
 
@@ -235,6 +236,9 @@ class Shapes:
                 return None
             query = Query(query.question, *pieces, query.pose_a, query.pose_b, query.motion)
         made = selection.trace(query, options, truth.t_hi)
+        for side in ("a", "b"):
+            made[f"n{side}"] = len(made[side])
+            made[side] = made[side] if len(made[side]) <= SELECTED else []
         seen = [query.a.digest, query.b.digest]
         if any(d not in self._known for d in seen):
             made["bodies"] = [self._body(query.a), self._body(query.b)]

@@ -15,7 +15,7 @@ async function caseView(root, i, method) {
     el("div", { class: "stage-tools" }, ["all", "a", "b", "contact"].map((w) => el("button", { type: "button", onclick: () => scene.aim(w) }, { all: "All", a: "A", b: "B", contact: "Contact" }[w]))))
     : el("div", { class: "stage-box none" }, el("p", {}, "The bodies of this case are not in this page, to keep it small. Its own page, with everything:"), el("code", {}, `ofg-bench explain ${c.case[i]} --run ${D.run.name || "RUN"}`));
   const time = moving && drawable ? el("div", { class: "timeline" }, play, el("div", { class: "track" }, marks, slider), clock,
-    el("div", { class: "jumps" }, jump(0, "start"), c.label[i] === "hit" && c.start[i] === "clear" ? jump(c.t_lo[i], "last clear") : null, c.label[i] === "hit" ? jump(c.t_hi[i], "impact") : null, jump(1, "end"))) : null;
+    el("div", { class: "jumps" }, jump(0, "start"), c.label[i] === "hit" && c.start[i] === "clear" ? jump(c.t_lo[i], "last clear") : null, c.label[i] === "hit" ? jump(c.t_hi[i], "impact") : null, D.time[D.method.get(method)]?.has(i) ? jump(D.time[D.method.get(method)].get(i), `as ${method} has it`) : null, jump(1, "end"))) : null;
   const toggles = drawable ? el("div", { class: "toggles" }, check("plane", "certificate"), check("seeThrough", "see through"), moving ? check("ghosts", "start and end") : null, labels.length ? check("selections", "OFG") : null) : null;
   root.replaceChildren(el("div", { class: "case" }, el("div", { class: "left" }, stage, time, toggles, legend, said), el("div", { class: "right" }, facts(i), ofgBox, verdicts(i, method))));
   let scene = null, g = null, timer = 0;
@@ -115,7 +115,7 @@ function ofgWords(i, label, x) {
   if (!x) return "";
   const c = D.cases, moving = c.question[i] !== "overlap", sa = D.bodies[x.bodies[0]], sb = D.bodies[x.bodies[1]], lines = [];
   const of = (n, b, piece) => `${n} of the ${b.pieces && piece >= 0 ? b.pieces[piece][1] : b.f[2]} faces`;
-  lines.push(`It took ${of(x.a.length, sa, x.pieces[0])} of A${sa.pieces ? ` (piece ${x.pieces[0] + 1} of ${sa.pieces.length})` : ""} and ${of(x.b.length, sb, x.pieces[1])} of B${sb.pieces ? ` (piece ${x.pieces[1] + 1} of ${sb.pieces.length})` : ""}` +
+  lines.push(`It took ${of(x.na, sa, x.pieces[0])} of A${sa.pieces ? ` (piece ${x.pieces[0] + 1} of ${sa.pieces.length})` : ""} and ${of(x.nb, sb, x.pieces[1])} of B${sb.pieces ? ` (piece ${x.pieces[1] + 1} of ${sb.pieces.length})` : ""}` +
     (x.parts > 1 ? `, in the part of the step from ${number(x.window[0])} to ${number(x.window[1])} (one of ${x.parts})` : "") + (moving ? { 1: ", chosen at the start", 2: ", chosen at the start and the end", 3: ", chosen at the start, at the end and where the centres pass closest" }[x.selections] : "") + ".");
   if (x.bodies.some((b, k) => b !== D.drawn[i][k])) lines.push("It was asked about CoACD's pieces of the mesh, which are another body than the mesh near its surface.");
   if (x.hit) {
@@ -124,7 +124,7 @@ function ofgWords(i, label, x) {
   } else if (c.label[i] === "hit") {
     lines.push(x.stopped ? `It answered clear before it looked at a face: ${x.stopped}.` : "It answered clear.");
     if (x.should) {
-      const [pa, pb] = x.should.places, taken = [x.a.includes(x.should.faces[0]), x.b.includes(x.should.faces[1])];
+      const [pa, pb] = x.should.places, taken = ["a", "b"].map((s, k) => (x[s].length ? x[s].includes(x.should.faces[k]) : x.should.places[k] !== null && x.should.places[k] <= x[`n${s}`]));
       const place = (p, is, side) => (p === null ? `${side}'s belongs to a piece that was not asked` : `${side}'s is the ${ordinal(p)} nearest, ${is ? "taken" : "not taken"}`);
       lines.push(`Faces that do meet${moving ? ` at t = ${number(x.should.time, 6)}` : ""}: ${x.should.faces[0]} of A and ${x.should.faces[1]} of B. ${place(pa, taken[0], "A")}; ${place(pb, taken[1], "B")}.`);
       if (taken[0] && taken[1] && moving && !x.stopped) lines.push(`Both were taken, but at the start, at the end and along the virtual edges (straight paths of the vertices of A${x.vertices_b ? " and B" : ""}) they do not touch: edges against edges in motion, and what curves, are left out as the article has it.`);

@@ -3,7 +3,7 @@ const section = (id, title, intro, ...content) => el("section", { id, "aria-labe
 
 function head() {
   const c = D.cases, uncertain = c.label.filter((l) => l === "uncertain").length, r = D.run;
-  const tiles = [[D.n.toLocaleString("en"), "certified cases" + (uncertain ? `, ${uncertain} uncertain` : "")], [D.labels.length, "methods and configurations"],
+  const tiles = [[(D.n - uncertain).toLocaleString("en"), "certified cases" + (uncertain ? `, ${uncertain} uncertain` : "")], [D.labels.length, "methods and configurations"],
     [new Set(c.scenario).size, "scenarios"], [(D.n * D.labels.length).toLocaleString("en"), "questions asked"],
     [r.noise === null ? "–" : percent(r.noise), r.noise > 0.25 ? "timing noise: disturbed" : "timing noise"]];
   return el("header", { class: "top" },

@@ -149,15 +149,14 @@ class BodyScene {
         for (let j = 0; j < positions.length; j += 9) for (let q = 0; q < 3; q++) segments.push(...positions.slice(j + 3 * q, j + 3 * q + 3), ...positions.slice(j + 3 * ((q + 1) % 3), j + 3 * ((q + 1) % 3) + 3));
         add(this.thick(segments, shade, rank > 1 ? 2.6 : 1.4, 1), moves).renderOrder = 3 + rank;
       };
-      const few = (faces) => (faces.length > 4000 ? [] : faces);
-      paint(sa, few(x.a), a, 0.75, true, 1);
-      paint(sb, few(x.b), b, 0.75, false, 1);
+      paint(sa, x.a, a, 0.75, true, 1);
+      paint(sb, x.b, b, 0.75, false, 1);
       if (x.should) { paint(sa, [x.should.faces[0]], should, 0.9, true, 2); paint(sb, [x.should.faces[1]], should, 0.9, false, 2); }
       if (x.met) { paint(sa, [x.met[0]], met, 0.9, true, 2); paint(sb, [x.met[1]], met, 0.9, false, 2); }
       if (g.moving) {
-        const [t0, t1] = x.window, lines = this.chords(sa, few(x.a), g.poseA(t0), g.poseA(t1));
+        const [t0, t1] = x.window, lines = this.chords(sa, x.a, g.poseA(t0), g.poseA(t1));
         this.root.add(this.thick(lines, chosen, 1.6, 0.85));
-        if (x.vertices_b) this.root.add(this.thick(this.chordsOfB(sb, few(x.b), g.poseA(t0), g.poseA(t1)), b, 1.2, 0.7));
+        if (x.vertices_b) this.root.add(this.thick(this.chordsOfB(sb, x.b, g.poseA(t0), g.poseA(t1)), b, 1.2, 0.7));
       }
     }
     this.plane = new T.Group();

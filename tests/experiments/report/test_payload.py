@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from experiments import metrics, tables
-from experiments.report import certificate, payload, report
+from experiments.report import certificate, page, payload, report
 from experiments.report.cells import links, select
 from experiments.rows import cases_of
 from experiments.timing import FLOOR, LOST, PROBE, situation_of, size_of
@@ -140,17 +140,24 @@ def test_planes_separate_the_elements_they_are_for(run):
     assert seen > 10
 
 
-def test_the_page_names_no_network_and_holds_the_data(run):
+def test_the_page_names_no_network_holds_the_data_and_is_the_same_when_made_again(run, given):
     report(run)
     text = (run.folder / "report.html").read_text()
     assert not re.search(r"""\b(?:src|href|action|poster|data)\s*=\s*["']?\s*(?:https?:)?//""", text) and "@import" not in text and "url(http" not in text
     assert "default-src 'none'" in text
     block = re.search(r'<script type="application/octet-stream" id="data">([^<]*)</script>', text)[1]
-    assert json.loads(gzip.decompress(base64.b64decode(block)))["labels"] == payload.of_run(run)["labels"]
+    assert json.loads(gzip.decompress(base64.b64decode(block))) == json.loads(json.dumps(payload._plain({k: v for k, v in given.items() if k != "bytes"})))
+    assert page.page(given, f"{given['run']['title']}: collision detection, certified") == text
 
 
-def test_the_page_is_the_same_when_made_again(run):
-    report(run)
-    before = (run.folder / "report.html").read_bytes()
-    report(run)
-    assert (run.folder / "report.html").read_bytes() == before
+def test_a_large_selection_is_counted_and_not_drawn(run, given, monkeypatch):
+    monkeypatch.setattr(payload, "SELECTED", 5)
+    made = payload.of_run(run)["ofg"]
+    sizes = set()
+    for place, overlays in given["ofg"].items():
+        for label, x in overlays.items():
+            for side in "ab":
+                assert made[place][label][f"n{side}"] == x[f"n{side}"] == len(x[side])
+                assert made[place][label][side] == (x[side] if len(x[side]) <= 5 else [])
+                sizes.add(len(x[side]) <= 5)
+    assert sizes == {True, False}
