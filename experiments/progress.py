@@ -25,14 +25,15 @@ class Forecast:
         self.plan, self.clock = dict(plan), clock
         self.done = {name: 0.0 for name in plan}  # share of each stage
         self.spent = {name: 0.0 for name in plan}
-        self.current, self.since, self.skipped = None, 0.0, 0.0
+        self.already = {name: 0.0 for name in plan}  # share that an earlier, interrupted run has done
+        self.current, self.since = None, 0.0
         self.history: list[tuple[float, float]] = []  # seconds gone, seconds said to be left
 
     def begin(self, name: str, seconds: float | None = None, skipped: float = 0.0) -> None:
-        """skipped: the share that an earlier, interrupted run has done."""
+        """seconds: a better plan than there was. skipped: the share that an earlier, interrupted run has done."""
         self.plan[name] = self.plan.get(name, 0.0) if seconds is None else seconds
-        self.done[name], self.spent[name] = skipped, 0.0
-        self.current, self.since, self.skipped = name, self.clock(), skipped
+        self.done[name], self.already[name], self.spent[name] = skipped, skipped, 0.0
+        self.current, self.since = name, self.clock()
 
     def advance(self, share: float) -> None:
         self.done[self.current] = min(1.0, self.done[self.current] + share)
@@ -50,13 +51,20 @@ class Forecast:
             if name == self.current:
                 since_told = self.clock() - self.since - self.spent[name]
                 total += max(0.0, todo * self._pace(planned) - since_told)
-            elif todo:
-                total += todo * planned
+            else:
+                total += todo * planned * (1.0 if self.spent[name] else self._slowness())
         return total
+
+    def _slowness(self) -> float:
+        """Seconds taken over seconds planned so far, which the stages to come are scaled by; within a factor of 4, as plans are rough."""
+        planned = sum(self.plan[name] * (self.done[name] - self.already[name]) for name in self.plan if self.spent[name])
+        spent = sum(self.spent.values())
+        trust = min(1.0, spent / 10.0)  # nothing is to be learnt from the first seconds
+        return 1.0 + trust * (min(4.0, max(0.25, spent / planned)) - 1.0) if planned > 0 else 1.0
 
     def _pace(self, planned: float) -> float:
         """Seconds for the whole current stage: the plan at its beginning, what was measured once a tenth of it is done."""
-        gone = self.done[self.current] - self.skipped
+        gone = self.done[self.current] - self.already[self.current]
         if gone <= 0:
             return planned
         trust = min(1.0, gone / 0.1)

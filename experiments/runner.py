@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import shutil
 from pathlib import Path
 
 from baselines import registry
 
-from . import answering, figures, labelling, manifest, progress, tables, timing
+from . import answering, figures, labelling, manifest, progress, scenarios, tables, timing
 from .config import ConfigError, RunConfig, load_files
 from .report import report as html_report
 from .stepping import experiment as stepping
 from .store import Store
 
 
-LABEL_SECONDS, ASK_SECONDS, CALL_SECONDS = 0.05, 0.002, 0.0003  # one case, one case of one method, one timed call
+# One label, one process that imports an engine, one case asked of one method, one timed call: only the plan that a run starts from.
+LABEL_SECONDS, PROCESS_SECONDS, ASK_SECONDS, CALL_SECONDS = 0.06, 0.5, 0.003, 0.0003
 
 
 def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missing: bool = False) -> list[tables.Table]:
@@ -63,10 +65,13 @@ def report(store: Store) -> list[tables.Table]:
 
 
 def plan(config: RunConfig, workers: int) -> dict[str, float]:
-    """Seconds that each stage will take, before anything is known: roughly what the presets took per case on one machine."""
+    """Seconds that each stage will take, before anything is known: roughly what the experiments took on one machine."""
     cases, methods = len(labelling.slots(config)), sum(len(registry.make(spec)) for spec in config.asked)
-    timed = min(cases, 7 * config.timing.cases) * methods * (config.timing.rounds + config.timing.warmup)
-    return {"certify cases": LABEL_SECONDS * cases / workers, "ask methods": ASK_SECONDS * cases * methods / workers, "time methods": CALL_SECONDS * timed}
+    processes = methods * math.ceil(cases / answering.CHUNK)
+    bins = 3 * len({scenarios.get(c.name).question for c in config.scenarios}) if config.timing.cases else 0
+    calls = min(cases, bins * config.timing.cases) * methods * (config.timing.rounds + config.timing.warmup)
+    return {"certify cases": LABEL_SECONDS * cases / workers, "ask methods": (PROCESS_SECONDS * processes + ASK_SECONDS * cases * methods) / workers,
+            "time methods": 3 * timing.START * bins + CALL_SECONDS * calls}
 
 
 def halfway(forecast: progress.Forecast) -> dict | None:
