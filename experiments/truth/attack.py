@@ -1,9 +1,10 @@
 """`python -m experiments.truth.attack`: thousands of corrupted certificates against the checker.
 
-Each mutation either makes a claim false (and must be refused), or weakens the evidence of a claim that stays true (and may be accepted
-where what is left still proves it: "redundant"). False claims are made false by construction: a plane stretched past the impact, a
-witness put where the bodies are apart, a label flipped. For weakened evidence an acceptance is counted as shown redundant only if the
-same mutated certificate also verifies with balls alone, without the doubles' filter.
+Each mutation either makes a claim false (and must be refused), or weakens the evidence of a claim that stays true (and may
+be accepted where what is left still proves it: "redundant"). False claims are made false by construction: a plane stretched
+past the impact, a witness put where the bodies are apart, a label flipped. For weakened evidence an acceptance is counted as
+shown redundant only if the same mutated certificate also verifies with balls alone, without the doubles' filter (of bodies
+with more than 400 faces together: not asked, because slow).
 """
 
 from __future__ import annotations
@@ -61,7 +62,10 @@ def mutations(rng, query, truth):
         point = [str(Fraction(str(x) if isinstance(x, str) else x) + Fraction(float(d))) for x, d in zip(c[key]["point"], away)]
         yield "witness moved away", FALSE, replace(truth, certificate={**c, key: {**c[key], "point": point}})
         size = min(query.a.size, query.b.size) * 10 ** rng.uniform(-6, 0)
-        point = [str(Fraction(str(x) if isinstance(x, str) else x) + Fraction(float(d))) for x, d in zip(point, rng.normal(size=3) * size - away)]
+        point = [
+            str(Fraction(str(x) if isinstance(x, str) else x) + Fraction(float(d)))
+            for x, d in zip(point, rng.normal(size=3) * size - away)
+        ]
         yield "witness moved a little", WEAKER, replace(truth, certificate={**c, key: {**c[key], "point": point}})
         side = rng.choice(["a", "b"])
         if c[key][side] is not None:
@@ -77,7 +81,9 @@ def mutations(rng, query, truth):
             continue
         nodes = _nodes(c[key]["tree"])
         yield "plane reversed", FALSE, replace(truth, certificate=_edit(c, key, lambda tree: _tilt(rng, tree, None)))
-        yield "plane tilted", WEAKER, replace(truth, certificate=_edit(c, key, lambda tree: _tilt(rng, tree, 10 ** rng.uniform(-4, 0))))
+        yield "plane tilted", WEAKER, replace(
+            truth, certificate=_edit(c, key, lambda tree: _tilt(rng, tree, 10 ** rng.uniform(-4, 0)))
+        )
         if any(len(n[0]) for n in nodes):
             yield "segment dropped", WEAKER, replace(truth, certificate=_edit(c, key, lambda tree: _drop_segment(rng, tree)))
             yield "frame exchanged", WEAKER, replace(truth, certificate=_edit(c, key, lambda tree: _reframe(rng, tree)))
@@ -146,14 +152,19 @@ def campaign(cases: int, seed: int, names=None):
     counts, wrong = defaultdict(Counter), []
     for scenario in (scenarios.get(n) for n in names) if names else scenarios.scenarios().values():
         drawn = [scenario.case(seed, level, i) for level in scenario.levels for i in range(cases)]
-        attacks = [(case, name, kind, mutated) for case, truth in zip(drawn, label_many(c.query for c in drawn))
-                   for name, kind, mutated in mutations(rng, case.query, truth)]
+        attacks = [
+            (case, name, kind, mutated)
+            for case, truth in zip(drawn, label_many(c.query for c in drawn))
+            for name, kind, mutated in mutations(rng, case.query, truth)
+        ]
         verdicts = check_many([(case.query, mutated) for case, _, _, mutated in attacks])
         for (case, name, kind, mutated), verdict in zip(attacks, verdicts):
             if not verdict.ok:
                 counts[name]["refused"] += 1
-            elif kind == WEAKER and (len(case.query.a.faces) + len(case.query.b.faces) > 400
-                                     or check_many([(case.query, mutated)], doubles=False)[0].ok):
+            elif kind == WEAKER and (
+                len(case.query.a.faces) + len(case.query.b.faces) > 400
+                or check_many([(case.query, mutated)], doubles=False)[0].ok
+            ):
                 counts[name]["redundant"] += 1
             else:
                 counts[name]["ACCEPTED"] += 1
@@ -168,7 +179,10 @@ def main():
     args = parser.parse_args()
     counts, wrong = campaign(args.cases, args.seed)
     for name, c in sorted(counts.items()):
-        print(f"{name:40s} {sum(c.values()):6d}  refused {c['refused']:6d}  redundant {c['redundant']:5d}  accepted wrongly {c['ACCEPTED']}")
+        print(
+            f"{name:40s} {sum(c.values()):6d}  refused {c['refused']:6d}  redundant {c['redundant']:5d}  "
+            f"accepted wrongly {c['ACCEPTED']}"
+        )
     print(f"{sum(sum(c.values()) for c in counts.values())} mutations")
     print("\n".join(wrong) or "none was accepted wrongly")
     raise SystemExit(len(wrong) > 0)

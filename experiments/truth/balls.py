@@ -47,9 +47,11 @@ def ball(v) -> list:
 def rotation(w, x, y, z) -> list:
     """Rows of N(q) / |q|^2, in the arithmetic of the arguments."""
     s = w * w + x * x + y * y + z * z
-    return [[(w * w + x * x - y * y - z * z) / s, 2 * (x * y - w * z) / s, 2 * (x * z + w * y) / s],
-            [2 * (x * y + w * z) / s, (w * w - x * x + y * y - z * z) / s, 2 * (y * z - w * x) / s],
-            [2 * (x * z - w * y) / s, 2 * (y * z + w * x) / s, (w * w - x * x - y * y + z * z) / s]]
+    return [
+        [(w * w + x * x - y * y - z * z) / s, 2 * (x * y - w * z) / s, 2 * (x * z + w * y) / s],
+        [2 * (x * y + w * z) / s, (w * w - x * x + y * y - z * z) / s, 2 * (y * z - w * x) / s],
+        [2 * (x * z - w * y) / s, 2 * (y * z + w * x) / s, (w * w - x * x - y * y + z * z) / s],
+    ]
 
 
 def dot(a, b):

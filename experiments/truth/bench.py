@@ -2,8 +2,8 @@
 
 A label here is everything but drawing the case: preparing its bodies, proving, building the certificate, and checking it. The
 cases are labelled in chunks, as a run does it, by as many processes as asked for (default 2), each timed over all its chunks;
-labels a second is the sum over processes. Processor seconds count, and of each chunk the fastest of --rounds rounds, so that a busy
-machine disturbs less; bodies are prepared afresh in each. Cases on which the label is "uncertain" count as labelled and are shown.
+labels a second is the sum over processes. Processor seconds count, and of each chunk the fastest of --rounds rounds, so that
+a busy machine disturbs less; bodies are prepared afresh in each. Cases whose label is "uncertain" count as labelled and are shown.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def measure(preset: str, share: int, shares: int, cases: int | None, rounds: int
         proving = checking = 0.0
         labels = Counter()
         for first in range(0, len(queries), CHUNK):
-            chunk = queries[first:first + CHUNK]
+            chunk = queries[first : first + CHUNK]
             best = (float("inf"), float("inf"))
             for _ in range(rounds):
                 for cache in (prover._solids, *geometry.CACHES):
@@ -79,15 +79,35 @@ def main():
         labels = sum((p[3] for p in parts), Counter())
         group = "overlap" if key[1] == "overlap" else "sweep"
         total[group] = [x + y for x, y in zip(total[group], (n, proving, checking, 0.0))]
-        table.append([*key, n, 1e3 * proving / n, 1e3 * checking / n, labels["hit"], labels["clear"], labels["uncertain"], labels["refused"]])
+        table.append(
+            [
+                *key,
+                n,
+                1e3 * proving / n,
+                1e3 * checking / n,
+                labels["hit"],
+                labels["clear"],
+                labels["uncertain"],
+                labels["refused"],
+            ]
+        )
     print(f"preset {args.preset}, {args.workers} processes; milliseconds per label on one core")
-    print(tabulate(table, ["scenario", "question", "labels", "prove ms", "check ms", "hit", "clear", "uncertain", "refused"], floatfmt=".3f"))
+    print(
+        tabulate(
+            table,
+            ["scenario", "question", "labels", "prove ms", "check ms", "hit", "clear", "uncertain", "refused"],
+            floatfmt=".3f",
+        )
+    )
     for group, target in (("overlap", 10_000), ("sweep", 500)):
         n, proving, checking, _ = total[group]
         if n:
             rate = args.workers * n / (proving + checking)
-            print(f"{group}: {rate:,.0f} labels/s on {args.workers} processes (goal {target:,}); prove {1e3 * proving / n:.3f} ms + check "
-                  f"{1e3 * checking / n:.3f} ms. Included: preparing bodies, proving, certificate, check. Not included: drawing the case.")
+            print(
+                f"{group}: {rate:,.0f} labels/s on {args.workers} processes (goal {target:,}); prove {1e3 * proving / n:.3f} ms "
+                f"+ check {1e3 * checking / n:.3f} ms. Included: preparing bodies, proving, certificate, check. "
+                "Not included: drawing the case."
+            )
 
 
 if __name__ == "__main__":

@@ -102,7 +102,10 @@ def obligations(pair, truth, c):
     if truth.label == "uncertain":
         return
     if truth.label == "clear":
-        require(truth.start == truth.end == "clear" and not truth.gap < 0 and nan, "a clear label is clear at both ends, without times")
+        require(
+            truth.start == truth.end == "clear" and not truth.gap < 0 and nan,
+            "a clear label is clear at both ends, without times",
+        )
         yield from clear(pair, c["clear"], 0.0, float(sweep), truth.gap if truth.gap > 0 else 0.0)
         return
     require(truth.label == "hit" and not truth.gap > 0, f"label {truth.label} with gap {truth.gap}")
@@ -132,7 +135,9 @@ def clear(pair, cert, start, end, gap):
         count = len(elements(body))
         if order is not None:
             order = np.array(order, dtype=np.int64)
-            require(order.shape == (count,) and (np.sort(order) == np.arange(count)).all(), f"{key} is no permutation of the elements")
+            require(
+                order.shape == (count,) and (np.sort(order) == np.arange(count)).all(), f"{key} is no permutation of the elements"
+            )
         sides.append((points(body, order), count))
     (A, na), (B, nb) = sides
     stack = [(cert["tree"], (0, na), (0, nb), start, True)]
@@ -245,7 +250,9 @@ def exact_time(pair, cert, t_lo, t_hi):
     meeting = add(dp, d, -t)
     for side, X, R, sign in ((cert["a"], A, RA, -1), (cert["b"], B, RB, 1)):
         weights, ids = [number(w) for w in side["weights"]], side["vertices"]
-        require(len(weights) == len(ids) and min(weights) >= 0 and sum(weights) == 1 and min(ids) >= 0, "the weights are not convex")
+        require(
+            len(weights) == len(ids) and min(weights) >= 0 and sum(weights) == 1 and min(ids) >= 0, "the weights are not convex"
+        )
         for w, i in zip(weights, ids):
             meeting = add(meeting, mul(R, vector(X.vertices[i])), sign * w)
     require(not any(meeting), "the weights do not touch at t*")

@@ -1,8 +1,8 @@
 """`python -m experiments.truth.crosscheck`: the labels against two judges that share nothing with the prover or the checker.
 
-CGAL's exact kernel (Debian: apt-get install libcgal-dev) judges instants in rationals: every overlap; of translations also the exact
-time and just before it; of turning sweeps rational rotations within 1e-60 of instants outside the bracket. An engine (FCL) samples every
-sweep densely in doubles. Disagreements are printed with their case; what is known about them is in DISAGREEMENTS.md.
+CGAL's exact kernel (Debian: apt-get install libcgal-dev) judges instants in rationals: every overlap; of translations also
+the exact time and just before it; of turning sweeps rational rotations within 1e-60 of instants outside the bracket. An
+engine (FCL) samples every sweep densely in doubles. Disagreements are printed with their case; what is known about them is in DISAGREEMENTS.md.
 """
 
 from __future__ import annotations
@@ -33,8 +33,22 @@ def compile_judge(folder: Path) -> Path | None:
         print("CGAL: SKIPPED, no C++ compiler was found")
         return None
     program = folder / "crosscheck"
-    built = subprocess.run([compiler, "-std=c++17", "-O2", "-w", "-DNDEBUG", str(Path(__file__).with_suffix(".cpp")), "-o", program,
-                            "-lmpfr", "-lgmp"], capture_output=True, text=True)
+    built = subprocess.run(
+        [
+            compiler,
+            "-std=c++17",
+            "-O2",
+            "-w",
+            "-DNDEBUG",
+            str(Path(__file__).with_suffix(".cpp")),
+            "-o",
+            program,
+            "-lmpfr",
+            "-lgmp",
+        ],
+        capture_output=True,
+        text=True,
+    )
     if built.returncode:
         reason = next((line for line in built.stderr.splitlines() if "error" in line), "compiler error")
         print(f"CGAL: SKIPPED, the judge does not compile ({reason.strip()}). On Debian: apt-get install libcgal-dev")
@@ -84,7 +98,11 @@ def claims(query, truth):
     early, late = fmpq(10**9 - 1, 10**9), fmpq(10**9 + 1, 10**9)
     if query.question == "overlap":
         return [(fmpq(0), truth.label == "hit", "overlap")]
-    found = [(fmpq(int(t == "1")), name == "hit", f"at t = {t}") for t, name in (("0", truth.start), ("1", truth.end)) if name != "uncertain"]
+    found = [
+        (fmpq(int(t == "1")), name == "hit", f"at t = {t}")
+        for t, name in (("0", truth.start), ("1", truth.end))
+        if name != "uncertain"
+    ]
     if truth.label == "clear":
         return found + [(fmpq(i, 7), False, f"clear at {i}/7") for i in range(1, 7)]
     if truth.start == "clear":
@@ -95,7 +113,10 @@ def claims(query, truth):
             if exact := truth.certificate.get("exact"):
                 p, _, q = exact["time"].partition("/")
                 time = fmpq(int(p), int(q or 1))
-                found += [(time, True, "exact time (touching)"), (time * (1 - fmpq(1, 2**90)), False, "2^-90 before the exact time")]
+                found += [
+                    (time, True, "exact time (touching)"),
+                    (time * (1 - fmpq(1, 2**90)), False, "2^-90 before the exact time"),
+                ]
         elif hi * late <= 1 and truth.gap < -1e-6 * min(query.a.size, query.b.size):
             found += [(hi * late, True, "after the bracket")]
     return found
@@ -116,17 +137,22 @@ def against_cgal(program, labelled, budget: int) -> list[str]:
             text.append(instant(query, t))
     answers = subprocess.run([program], input="".join(text), capture_output=True, text=True).stdout.split()
     kinds = Counter(what.split(" at ")[0].split(" = ")[0] for _, _, what in asked)
-    print(f"CGAL: {len(answers)} of {len(asked)} instants answered ({dict(kinds)}); {skipped} labels skipped: over {budget} faces")
-    wrong = [f"CGAL {name}: {what}: certified {'meet' if meets else 'apart'}, CGAL says {'meet' if a == '1' else 'apart'}"
-             for (name, meets, what), a in zip(asked, answers) if meets != (a == "1")]
+    print(
+        f"CGAL: {len(answers)} of {len(asked)} instants answered ({dict(kinds)}); {skipped} labels skipped: over {budget} faces"
+    )
+    wrong = [
+        f"CGAL {name}: {what}: certified {'meet' if meets else 'apart'}, CGAL says {'meet' if a == '1' else 'apart'}"
+        for (name, meets, what), a in zip(asked, answers)
+        if meets != (a == "1")
+    ]
     if len(answers) < len(asked):
         wrong.append(f"CGAL stopped at {asked[len(answers)]}")
     return wrong
 
 
 def against_engine(labelled) -> list[str]:
-    """Disagreements with FCL's hull-hull overlap test at SAMPLES instants of every sweep of two convex bodies. Below 1e-5 of the size
-    it is not asked: its own tolerance rules there."""
+    """Disagreements with FCL's hull-hull overlap test at SAMPLES instants of every sweep of two convex bodies. Below 1e-5 of the
+    size it is not asked: its own tolerance rules there."""
     import fcl
 
     wrong, sampled, silent = [], 0, 0
@@ -134,8 +160,10 @@ def against_engine(labelled) -> list[str]:
         if truth.label == "uncertain" or query.question == "overlap" or {query.a.kind, query.b.kind} != {"convex"}:
             continue
         size = min(query.a.size, query.b.size)
-        a, b = (fcl.CollisionObject(fcl.Convex(x.vertices, len(x.faces), np.hstack([np.full((len(x.faces), 1), 3), x.faces]).ravel()))
-                for x in (query.a, query.b))
+        a, b = (
+            fcl.CollisionObject(fcl.Convex(x.vertices, len(x.faces), np.hstack([np.full((len(x.faces), 1), 3), x.faces]).ravel()))
+            for x in (query.a, query.b)
+        )
         b.setTransform(fcl.Transform(query.pose_b.rotation, query.pose_b.position))
         met = []
         for t in np.linspace(0, 1, SAMPLES):

@@ -46,10 +46,13 @@ def exact_time(query: Query, piece_a: int, piece_b: int, plane) -> dict | None:
         lowest = point(i, j)
         if dot(n, lowest) == dot(n, corners[0][2]):
             t = dot(n, lowest) / dot(n, d)
-            return {"time": str(t), "normal": [str(c) for c in n],
-                    "a": {"piece": piece_a, "vertices": [i for i, _, _ in corners], "weights": [str(w) for w in weights]},
-                    "b": {"piece": piece_b, "vertices": [j for _, j, _ in corners], "weights": [str(w) for w in weights]}}
-        swaps = [corners[:k] + [(i, j, lowest)] + corners[k + 1:] for k in range(3)]
+            return {
+                "time": str(t),
+                "normal": [str(c) for c in n],
+                "a": {"piece": piece_a, "vertices": [i for i, _, _ in corners], "weights": [str(w) for w in weights]},
+                "b": {"piece": piece_b, "vertices": [j for _, j, _ in corners], "weights": [str(w) for w in weights]},
+            }
+        swaps = [corners[:k] + [(i, j, lowest)] + corners[k + 1 :] for k in range(3)]
         swaps = [s for s in swaps if _pierced([c for _, _, c in s], d) is not None]
         if not swaps:
             return None

@@ -1,7 +1,7 @@
 """The checker's doubles: settles an obligation only by more than its rounding error, in batches; the rest is left to the balls.
 
-Error of n.x(t) in double: at most E = 256 u (1 + |theta|) |n|_1 reach, u = 2**-53, `reach` bounding |v|_1 + |b|_1 + |dp|_1 + |d|_1.
-(Rotation entries 10 u, products and sums of three 6 u, sin and cos of a rounded theta t: 2 u + 2 u |theta|, the turn about k 40 u,
+Error of n.x(t) in double: at most E = 256 u (1 + |theta|) |n|_1 reach, u = 2**-53, reach >= |v|_1 + |b|_1 + |dp|_1 + |d|_1.
+(Rotation entries 10 u, products and sums of three 6 u, sin and cos of a rounded theta t 2 u + 2 u |theta|, turn about k 40 u,
 dp and t d rounded once each: together below 128 u.) Sums that may have been rounded below 2**-1022 are left to the balls.
 """
 
@@ -31,9 +31,18 @@ class Numbers:
         index = [seen.setdefault(id(p), len(seen)) for p in pairs]
         rows = np.array([p.row for p in {id(p): p for p in pairs}.values()])
         k = rows[:, 14:17]
-        self.RA, self.RB, self.dp, self.d, self.k, self.theta, self.reach = (x[index] for x in (
-            _rotation(rows[:, 0:4]), _rotation(rows[:, 4:8]), rows[:, 8:11], rows[:, 11:14],
-            k / np.where(k.any(1), _norm(k), 1.0)[:, None], rows[:, 17], rows[:, 18]))
+        self.RA, self.RB, self.dp, self.d, self.k, self.theta, self.reach = (
+            x[index]
+            for x in (
+                _rotation(rows[:, 0:4]),
+                _rotation(rows[:, 4:8]),
+                rows[:, 8:11],
+                rows[:, 11:14],
+                k / np.where(k.any(1), _norm(k), 1.0)[:, None],
+                rows[:, 17],
+                rows[:, 18],
+            )
+        )
 
 
 def _apart(jobs) -> list[tuple]:
@@ -79,9 +88,11 @@ def _apart(jobs) -> list[tuple]:
     open_ = []
     for i in np.flatnonzero(~np.logical_and.reduceat(sure, q_first)):
         mine, of = slice(q_first[i], q_first[i] + len(os[i].B if os[i].turning else os[i].A)), p_first[i]
-        keys = key[of:of + len(os[i].A if os[i].turning else os[i].B)]
+        keys = key[of : of + len(os[i].A if os[i].turning else os[i].B)]
         trusted = 1e-140 < error[i] < 1e140
-        open_.append((jobs[i][0], np.flatnonzero(~sure[mine]), np.flatnonzero(keys >= top[i] - 4 * error[i]) if trusted else None))
+        open_.append(
+            (jobs[i][0], np.flatnonzero(~sure[mine]), np.flatnonzero(keys >= top[i] - 4 * error[i]) if trusted else None)
+        )
     return open_
 
 
@@ -137,8 +148,13 @@ def winding(mesh, y, rho):
     low, high = geometry.face_boxes(mesh)
     for axis in range(3):
         i, j = (axis + 1) % 3, (axis + 2) % 3
-        met = np.flatnonzero((low[i] <= y[i] + rho) & (high[i] >= y[i] - rho) & (low[j] <= y[j] + rho) & (high[j] >= y[j] - rho)
-                             & (high[axis] >= y[axis] - rho))
+        met = np.flatnonzero(
+            (low[i] <= y[i] + rho)
+            & (high[i] >= y[i] - rho)
+            & (low[j] <= y[j] + rho)
+            & (high[j] >= y[j] - rho)
+            & (high[axis] >= y[axis] - rho)
+        )
         if not len(met):
             return 0
         w = mesh.vertices[mesh.faces[met]] - y
@@ -197,8 +213,9 @@ def _apply(R, v):
 
 
 def _cross(a, b):
-    return np.stack([a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1], a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2],
-                     a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]], 1)
+    return np.stack(
+        [a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1], a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2], a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]], 1
+    )
 
 
 def _norm(x):

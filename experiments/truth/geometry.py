@@ -25,8 +25,15 @@ class Pair:
         dp = [y - x for x, y in zip(pa, pb)]
         top = max(map(abs, axis)) or 1.0
         span = reach(self.a) + reach(self.b) + sum(map(abs, dp)) + sum(map(abs, d))
-        self.row = [*query.pose_a.quaternion.tolist(), *query.pose_b.quaternion.tolist(), *dp, *d, *(c / top for c in axis),
-                    self.theta, span]
+        self.row = [
+            *query.pose_a.quaternion.tolist(),
+            *query.pose_b.quaternion.tolist(),
+            *dp,
+            *d,
+            *(c / top for c in axis),
+            self.theta,
+            span,
+        ]
 
     @cached_property
     def exact(self):
@@ -62,8 +69,8 @@ class points:
 
     def of(self, lo, hi):
         if not self.mesh:
-            return self.block[self.first[lo]:self.first[hi]]
-        ids = self.ids[3 * lo:3 * hi]
+            return self.block[self.first[lo] : self.first[hi]]
+        ids = self.ids[3 * lo : 3 * hi]
         if len(ids) > 100:  # a vertex belongs to about six faces: each once
             met = np.zeros(len(self.mesh.vertices), bool)
             met[ids] = True
@@ -103,8 +110,12 @@ def support(piece, m):
     """(value, index) of the largest m.v over a convex body's vertices, m of rationals: in integers."""
     if piece not in _integers:
         shift = max(0, *(53 - e for e in np.frexp(piece.vertices[piece.vertices != 0])[1].tolist()))
-        _integers[piece] = fmpz_mat([[int(fmpz(p) * 2**shift // q) for p, q in map(float.as_integer_ratio, v)]
-                                     for v in piece.vertices.tolist()]), 2**shift
+        _integers[piece] = (
+            fmpz_mat(
+                [[int(fmpz(p) * 2**shift // q) for p, q in map(float.as_integer_ratio, v)] for v in piece.vertices.tolist()]
+            ),
+            2**shift,
+        )
     vertices, scale = _integers[piece]
     m = [fmpq(c) for c in m]
     common = lcm(*(int(c.q) for c in m))

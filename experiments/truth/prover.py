@@ -16,7 +16,7 @@ _solids: WeakKeyDictionary[Body, _native.Solid] = WeakKeyDictionary()
 
 
 def prove(query: Query) -> Truth:
-    """Propose a label and its certificate. Never raises for a valid query and never hangs: "uncertain" with a reason otherwise."""
+    """Propose a label and its certificate. Never raises for a valid query and never hangs: else "uncertain" with a reason."""
     try:
         return _prove(query)
     except (OverflowError, ValueError) as error:  # lengths near the ends of the range of doubles
@@ -26,8 +26,15 @@ def prove(query: Query) -> Truth:
 def _prove(query: Query) -> Truth:
     a, b = _solid(query.a), _solid(query.b)
     m = query.motion
-    pair = _native.Pair(query.pose_a.quaternion.tolist(), query.pose_a.position.tolist(), query.pose_b.quaternion.tolist(),
-                        query.pose_b.position.tolist(), m.displacement.tolist(), m.axis.tolist(), m.angle)
+    pair = _native.Pair(
+        query.pose_a.quaternion.tolist(),
+        query.pose_a.position.tolist(),
+        query.pose_b.quaternion.tolist(),
+        query.pose_b.position.tolist(),
+        m.displacement.tolist(),
+        m.axis.tolist(),
+        m.angle,
+    )
     if query.question == "overlap":
         return _overlap(query, _native.instant(pair, a, b, 0.0, EFFORT))
     return _sweep(query, _native.sweep(pair, a, b, EFFORT))
@@ -40,7 +47,9 @@ def uncertain(reason: str) -> Truth:
 def _overlap(query, found) -> Truth:
     label = found["label"]
     if label == "clear":
-        return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate={"clear": _apart(query, found["tree"], 0.0)})
+        return Truth(
+            "clear", start="clear", end="clear", gap=found["gap"], certificate={"clear": _apart(query, found["tree"], 0.0)}
+        )
     if label == "hit":
         return Truth("hit", start="hit", end="hit", gap=-found["depth"], certificate={"hit": _inside(query, found["common"])})
     if found["spent"]:

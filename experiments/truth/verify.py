@@ -32,8 +32,10 @@ class Verification:
         reasons = "".join(f"\n  {n} uncertain: {reason}" for reason, n in self.uncertain.most_common())
         refusals = "".join(f"\n  refused: label {i} ({label}): {reason}" for i, label, reason in self.refused[:20])
         more = f"\n  and {len(self.refused) - 20} more" if len(self.refused) > 20 else ""
-        return (f"{sum(self.verified.values())} labels verified ({self.verified['hit']} hit, {self.verified['clear']} clear), "
-                f"{sum(self.uncertain.values())} uncertain, {len(self.refused)} refused{reasons}{refusals}{more}")
+        return (
+            f"{sum(self.verified.values())} labels verified ({self.verified['hit']} hit, {self.verified['clear']} clear), "
+            f"{sum(self.uncertain.values())} uncertain, {len(self.refused)} refused{reasons}{refusals}{more}"
+        )
 
 
 def verify(labelled: Iterable[tuple[Query, Truth]], advance: Callable[[int], None] = lambda n: None) -> Verification:

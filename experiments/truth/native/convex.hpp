@@ -13,7 +13,8 @@ struct Pair {  // B at rest, all relative to p_A
     double theta;
 };
 
-template <class T> struct Scene {
+template <class T>
+struct Scene {
     mat<T> RA, RB;
     vec<T> dp, d, k;
     T theta;
@@ -41,33 +42,41 @@ template <class T> struct Scene {
     }
 };
 
-template <class T> vec<T> transposed(const mat<T>& m, vec<T> v) { return m.r[0] * v.x + m.r[1] * v.y + m.r[2] * v.z; }
+template <class T>
+vec<T> transposed(const mat<T>& m, vec<T> v) {
+    return m.r[0] * v.x + m.r[1] * v.y + m.r[2] * v.z;
+}
 
 using Vertices = std::vector<std::array<double, 3>>;
 
-template <class T> double largest(const Points<T>& p) {
+template <class T>
+double largest(const Points<T>& p) {
     double m = 0;
     for (auto& v : p) m = std::max(m, double(norm(v)));
     return m;
 }
-template <class T> Points<T> turned(const Scene<T>& s, const Vertices& A) {  // R(q_A) v
+template <class T>
+Points<T> turned(const Scene<T>& s, const Vertices& A) {  // R(q_A) v
     Points<T> r;
     r.reserve(A.size());
     for (auto& v : A) r.push_back(s.RA * vec<T>{T(v[0]), T(v[1]), T(v[2])});
     return r;
 }
-template <class T> Points<T> placed(const Scene<T>& s, const Vertices& B) {  // R(q_B) v + p_B - p_A
+template <class T>
+Points<T> placed(const Scene<T>& s, const Vertices& B) {  // R(q_B) v + p_B - p_A
     Points<T> b;
     b.reserve(B.size());
     for (auto& v : B) b.push_back(s.RB * vec<T>{T(v[0]), T(v[1]), T(v[2])} + s.dp);
     return b;
 }
 
-template <class T> struct Moving {  // A's points: r = R(q_A) v, and x at time `now`, kept for the next question at that time
+template <class T>
+struct Moving {  // A's points: r = R(q_A) v, and x at time `now`, kept for the next question at that time
     Points<T> r, x;
     double now = -1;
 };
-template <class T> struct Placed {  // two point sets in a scene
+template <class T>
+struct Placed {  // two point sets in a scene
     const Scene<T>& scene;
     Moving<T>& a;
     const Points<T>&r, &b;
@@ -88,17 +97,27 @@ template <class T> struct Placed {  // two point sets in a scene
     double blur() const { return resolution<T>() * 64 * (1 + std::abs(double(scene.theta))) * reach; }
 };
 
-struct Wide { double hi[3], lo[3]; };
+struct Wide {
+    double hi[3], lo[3];
+};
 inline Wide wide(vec<double> v) { return {{v.x, v.y, v.z}, {0, 0, 0}}; }
 inline Wide wide(vec<dd> v) { return {{v.x.hi, v.y.hi, v.z.hi}, {v.x.lo, v.y.lo, v.z.lo}}; }
 inline vec<dd> unwide(const Wide& w) { return {{w.hi[0], w.lo[0]}, {w.hi[1], w.lo[1]}, {w.hi[2], w.lo[2]}}; }
 
-struct Segment { double end; char frame; Wide n; };
+struct Segment {
+    double end;
+    char frame;
+    Wide n;
+};
 
-struct Inside { Wide point; std::array<int, 4> a, b; };  // point relative to p_A
+struct Inside {
+    Wide point;
+    std::array<int, 4> a, b;
+};  // point relative to p_A
 
 // Does plane n (in the frame's own coordinates) keep the pair apart by `margin` over [s, e]? As the checker asks it.
-template <class T> bool leaf(Placed<T>& P, double s, double e, char frame, vec<T> n, T margin) {
+template <class T>
+bool leaf(Placed<T>& P, double s, double e, char frame, vec<T> n, T margin) {
     using std::abs;
     const auto& S = P.scene;
     margin = margin * norm(n) + T(P.blur()) * norm(n);
@@ -129,7 +148,8 @@ template <class T> bool leaf(Placed<T>& P, double s, double e, char frame, vec<T
 }
 
 // How long n (world, at time s) surely stays a separating plane by margin |n|, in either frame.
-template <class T> T lasts(Placed<T>& P, double s, double end, vec<T> n, T margin, char& frame) {
+template <class T>
+T lasts(Placed<T>& P, double s, double end, vec<T> n, T margin, char& frame) {
     using std::abs;
     using std::sqrt;
     const auto& S = P.scene;
@@ -161,15 +181,21 @@ template <class T> T lasts(Placed<T>& P, double s, double end, vec<T> n, T margi
         T h = root(dot(n, w) - c, -S.theta * dot(kn, w) - nd, M);
         if (h < hA) hA = h;
     }
-    if (hA > hW) { frame = 'A'; return hA; }
+    if (hA > hW) {
+        frame = 'A';
+        return hA;
+    }
     return hW;
 }
 
 // A point strictly inside both, found on shrunk copies so that it keeps clear of both surfaces. Each copy shrinks towards an
 // interior point drawn at random: symmetric bodies would else put the point on faces of every tetrahedron tried.
-template <class T> std::optional<Inside> inside(const Points<T>& A, const Points<T>& B, double reach) {
+template <class T>
+std::optional<Inside> inside(const Points<T>& A, const Points<T>& B, double reach) {
     unsigned long long seed = 1;
-    auto draw = [&] { return 0.25 + double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 4294967296.0; };
+    auto draw = [&] {
+        return 0.25 + double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 4294967296.0;
+    };
     auto centre = [&](const Points<T>& p) {
         vec<T> m;
         double total = 0;
@@ -209,10 +235,14 @@ struct Effort {
 
 // March: certified segments from `s` on until the gap falls to `margin` or below `floor`, a step falls below `least_step`, or
 // `end` is reached. Appends to `out`. least: the smallest distance seen, at time `at`.
-struct March { double t = 0, least = 1e300, at = 0; bool done = false; };
+struct March {
+    double t = 0, least = 1e300, at = 0;
+    bool done = false;
+};
 
 template <class T>
-March march(Placed<T>& P, double s, double end, double margin, double floor, double least_step, Effort& effort, std::vector<Segment>& out) {
+March march(Placed<T>& P, double s, double end, double margin, double floor, double least_step, Effort& effort,
+            std::vector<Segment>& out) {
     March m;
     m.t = s;
     vec<T> guess = P.b[0] - P.at(s)[0];
@@ -239,12 +269,18 @@ March march(Placed<T>& P, double s, double end, double margin, double floor, dou
         double e = m.t;
         for (double f : {8.0, 3.0, 1.4, 0.999, 0.7, 0.4, 0.15, 0.03}) {
             double to = std::min(end, m.t + f * h);
-            if (to > m.t && leaf(P, m.t, to, frame, own, T(margin))) { e = to; break; }
+            if (to > m.t && leaf(P, m.t, to, frame, own, T(margin))) {
+                e = to;
+                break;
+            }
         }
         if (!(e - m.t > 2e-13 * e)) return m;
         out.push_back({e, frame, wide(own)});
         m.t = e;
-        if (e >= end) { m.done = true; return m; }
+        if (e >= end) {
+            m.done = true;
+            return m;
+        }
     }
     return m;
 }

@@ -12,8 +12,14 @@ struct dd {
     explicit operator double() const { return hi; }
 };
 
-inline dd quick(double a, double b) { double s = a + b; return {s, b - (s - a)}; }
-inline dd sum2(double a, double b) { double s = a + b, t = s - a; return {s, (a - (s - t)) + (b - t)}; }
+inline dd quick(double a, double b) {
+    double s = a + b;
+    return {s, b - (s - a)};
+}
+inline dd sum2(double a, double b) {
+    double s = a + b, t = s - a;
+    return {s, (a - (s - t)) + (b - t)};
+}
 inline dd operator+(dd a, dd b) {
     dd s = sum2(a.hi, b.hi), t = sum2(a.lo, b.lo);
     s = quick(s.hi, s.lo + t.hi);
@@ -47,7 +53,10 @@ inline dd sqrt(dd a) {
 }
 inline dd abs(dd a) { return a.hi < 0 ? -a : a; }
 
-inline void sincos(double x, double& s, double& c) { s = std::sin(x); c = std::cos(x); }
+inline void sincos(double x, double& s, double& c) {
+    s = std::sin(x);
+    c = std::cos(x);
+}
 inline void sincos(dd x, dd& s, dd& c) {
     // x - m pi/32 with pi to 161 bits, then Taylor, then the angle-addition of the double-double table of sin, cos(m pi/32).
     static const double p1 = 3.141592653589793116e+00, p2 = 1.224646799147353207e-16, p3 = -2.994769809718339666e-33;
@@ -63,33 +72,72 @@ inline void sincos(dd x, dd& s, dd& c) {
     }
     for (int i = 0; i < 6; ++i) {  // double the angle six times: cos 2r - 1 = 2 (cos r - 1)(cos r + 1)
         sn = dd(2) * sn * (cn + dd(1));
-        cn = dd(2) * cn * (cn + dd(2)) ;
+        cn = dd(2) * cn * (cn + dd(2));
     }
     dd cs = cn + dd(1);
     switch (((long long)q % 4 + 4) % 4) {
-        case 0: s = sn; c = cs; break;
-        case 1: s = cs; c = -sn; break;
-        case 2: s = -sn; c = -cs; break;
-        default: s = -cs; c = sn;
+        case 0:
+            s = sn;
+            c = cs;
+            break;
+        case 1:
+            s = cs;
+            c = -sn;
+            break;
+        case 2:
+            s = -sn;
+            c = -cs;
+            break;
+        default:
+            s = -cs;
+            c = sn;
     }
 }
 
-template <class T> struct vec {
+template <class T>
+struct vec {
     T x{}, y{}, z{};
     T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
 };
-template <class T> vec<T> operator+(vec<T> a, vec<T> b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-template <class T> vec<T> operator-(vec<T> a, vec<T> b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-template <class T> vec<T> operator-(vec<T> a) { return {-a.x, -a.y, -a.z}; }
-template <class T> vec<T> operator*(vec<T> a, T s) { return {a.x * s, a.y * s, a.z * s}; }
-template <class T> T dot(vec<T> a, vec<T> b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-template <class T> vec<T> cross(vec<T> a, vec<T> b) {
+template <class T>
+vec<T> operator+(vec<T> a, vec<T> b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+vec<T> operator-(vec<T> a, vec<T> b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+vec<T> operator-(vec<T> a) {
+    return {-a.x, -a.y, -a.z};
+}
+template <class T>
+vec<T> operator*(vec<T> a, T s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
+template <class T>
+T dot(vec<T> a, vec<T> b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+vec<T> cross(vec<T> a, vec<T> b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-template <class T> T norm(vec<T> a) { using std::sqrt; return sqrt(dot(a, a)); }
-template <class T> struct mat { vec<T> r[3]; };
-template <class T> vec<T> operator*(const mat<T>& m, vec<T> v) { return {dot(m.r[0], v), dot(m.r[1], v), dot(m.r[2], v)}; }
-template <class T> mat<T> rotation(T w, T x, T y, T z) {
+template <class T>
+T norm(vec<T> a) {
+    using std::sqrt;
+    return sqrt(dot(a, a));
+}
+template <class T>
+struct mat {
+    vec<T> r[3];
+};
+template <class T>
+vec<T> operator*(const mat<T>& m, vec<T> v) {
+    return {dot(m.r[0], v), dot(m.r[1], v), dot(m.r[2], v)};
+}
+template <class T>
+mat<T> rotation(T w, T x, T y, T z) {
     T s = T(1) / (w * w + x * x + y * y + z * z), two = T(2) * s;
     return {{{(w * w + x * x - y * y - z * z) * s, (x * y - w * z) * two, (x * z + w * y) * two},
              {(x * y + w * z) * two, (w * w - x * x + y * y - z * z) * s, (y * z - w * x) * two},

@@ -6,8 +6,14 @@ namespace truth {
 
 // The least width |max n.a - min n.b| over the directions the polytope has tried; 0 if the sets do not overlap as far as T sees.
 // thin: gets the unit direction in which B is moved off A the soonest, reversed.
-template <class T> double depth(const Points<T>& A, const Points<T>& B, double reach, Effort& effort, vec<T>* thin = nullptr, int rounds = 96) {
-    struct Facet { int v[3]; vec<T> n; T far; bool live; };
+template <class T>
+double depth(const Points<T>& A, const Points<T>& B, double reach, Effort& effort, vec<T>* thin = nullptr, int rounds = 96) {
+    struct Facet {
+        int v[3];
+        vec<T> n;
+        T far;
+        bool live;
+    };
     auto g = gjk<T>(A, B, B[0] - A[0], reach, 1e-3);
     if (g.status == Status::Unknown) {  // symmetric poses put the origin on a simplex: move B off by less than matters
         Points<T> moved(B);
@@ -52,8 +58,10 @@ template <class T> double depth(const Points<T>& A, const Points<T>& B, double r
             for (int i = 0; i < 3; ++i) {
                 std::pair<int, int> e{f.v[i], f.v[(i + 1) % 3]};
                 auto twin = std::find(rim.begin(), rim.end(), std::pair{e.second, e.first});
-                if (twin == rim.end()) rim.push_back(e);
-                else rim.erase(twin);
+                if (twin == rim.end())
+                    rim.push_back(e);
+                else
+                    rim.erase(twin);
             }
         }
         if (rim.empty()) break;

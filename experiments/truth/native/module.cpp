@@ -32,7 +32,8 @@ static nb::tuple pack(const Tree& tree, int id = 0) {  // (segments, None or (si
     nb::list segments;
     for (auto& s : node.segments) segments.append(nb::make_tuple(s.end, std::string(1, s.frame), pack(s.n)));
     if (node.left < 0) return nb::make_tuple(segments, nb::none());
-    return nb::make_tuple(segments, nb::make_tuple(std::string(1, node.side), node.cut, pack(tree, node.left), pack(tree, node.right)));
+    return nb::make_tuple(segments,
+                          nb::make_tuple(std::string(1, node.side), node.cut, pack(tree, node.left), pack(tree, node.right)));
 }
 static nb::dict pack(const Instant& i) {
     nb::dict out;
@@ -44,20 +45,23 @@ static nb::dict pack(const Instant& i) {
 
 NB_MODULE(_native, m) {
     nb::class_<Solid>(m, "Solid")
-        .def_static("of_pieces", [](const std::vector<Array>& pieces) {
-            std::vector<Vertices> v;
-            for (auto& p : pieces) v.push_back(vertices_of(p));
-            return Solid(std::move(v));
-        })
-        .def_static("of_mesh", [](const Array& v, nb::ndarray<const int, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu> f) {
-            std::vector<std::array<int, 3>> faces(f.shape(0));
-            for (size_t i = 0; i < faces.size(); ++i) faces[i] = {f(i, 0), f(i, 1), f(i, 2)};
-            return Solid(vertices_of(v), std::move(faces));
-        })
+        .def_static("of_pieces",
+                    [](const std::vector<Array>& pieces) {
+                        std::vector<Vertices> v;
+                        for (auto& p : pieces) v.push_back(vertices_of(p));
+                        return Solid(std::move(v));
+                    })
+        .def_static("of_mesh",
+                    [](const Array& v, nb::ndarray<const int, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu> f) {
+                        std::vector<std::array<int, 3>> faces(f.shape(0));
+                        for (size_t i = 0; i < faces.size(); ++i) faces[i] = {f(i, 0), f(i, 1), f(i, 2)};
+                        return Solid(vertices_of(v), std::move(faces));
+                    })
         .def_ro("order", &Solid::order);
     nb::class_<Pair>(m, "Pair").def(
-        "__init__", [](Pair* self, std::array<double, 4> qa, std::array<double, 3> pa, std::array<double, 4> qb, std::array<double, 3> pb,
-                       std::array<double, 3> d, std::array<double, 3> k, double theta) { new (self) Pair{qa, qb, pa, pb, d, k, theta}; });
+        "__init__",
+        [](Pair* self, std::array<double, 4> qa, std::array<double, 3> pa, std::array<double, 4> qb, std::array<double, 3> pb,
+           std::array<double, 3> d, std::array<double, 3> k, double theta) { new (self) Pair{qa, qb, pa, pb, d, k, theta}; });
     m.def("instant", [](const Pair& pair, const Solid& A, const Solid& B, double t, double limit) {
         Prover prover(pair, A, B, limit);
         Instant i = prover.at(t);

@@ -9,7 +9,11 @@
 namespace truth {
 
 struct Tree {  // node 0 is the root; children split the elements of `side` at `cut`
-    struct Node { std::vector<Segment> segments; char side = 0; int cut = 0, left = -1, right = -1; };
+    struct Node {
+        std::vector<Segment> segments;
+        char side = 0;
+        int cut = 0, left = -1, right = -1;
+    };
     std::vector<Node> nodes;
 };
 
@@ -49,8 +53,8 @@ class Prover {
     }
     const Effort& effort() const { return effort_; }
 
-    // Depth at t, an estimate: of the deepest of the overlapping pieces. With a mesh: the diameter of the largest ball found inside
-    // both, growing from the common point.
+    // Depth at t, an estimate: of the deepest of the overlapping pieces. With a mesh: the diameter of the largest ball found
+    // inside both, growing from the common point.
     double depth_at(double t, const Common& common) {
         if (A_.mesh || B_.mesh) return ball(t, common);
         double deepest = 0;
@@ -62,13 +66,19 @@ class Prover {
         Instant out;
         attempts_ = 0;
         if (single() && !A_.mesh && !B_.mesh) {
-            if (!settle(quick(0, 0), t, out) && !settle_near(t, out)) { Exact e(*this, 0, 0); settle(e.placed, t, out); }
+            if (!settle(quick(0, 0), t, out) && !settle_near(t, out)) {
+                Exact e(*this, 0, 0);
+                settle(e.placed, t, out);
+            }
             return out;
         }
         double apart = 1e300;
         bool found = false;
         nearest(0, 0, t, apart, &out.common, &found);
-        if (found) { out.label = "hit"; return out; }
+        if (found) {
+            out.label = "hit";
+            return out;
+        }
         if (apart > 1e3 * blur_)
             for (double share : {0.99, 0.5}) {
                 Cover c = cover(t, t, share * apart, nullptr);
@@ -78,11 +88,13 @@ class Prover {
                 return out;
             }
         Cover c = cover(t, t, 0, &out.common);
-        if (c.found) out.label = "hit";
+        if (c.found)
+            out.label = "hit";
         else if (c.stuck.empty()) {
             out.label = contained(t, out.common) ? "hit" : "clear";
             out.tree = std::move(c.tree);
-        } else if (anywhere(t, out.common)) out.label = "hit";
+        } else if (anywhere(t, out.common))
+            out.label = "hit";
         return out;
     }
 
@@ -90,12 +102,26 @@ class Prover {
         Proof p;
         Instant start = at(0);
         p.start = start.label;
-        if (start.label == "hit") { p.label = "hit", p.common = start.common; finish(p); return p; }
-        if (start.label == "uncertain") { p.reason = why("touching at the start"); return p; }
+        if (start.label == "hit") {
+            p.label = "hit", p.common = start.common;
+            finish(p);
+            return p;
+        }
+        if (start.label == "uncertain") {
+            p.reason = why("touching at the start");
+            return p;
+        }
         Cover c = cover(0, 1, 0, nullptr);
-        if (effort_.spent()) { p.reason = why(""); return p; }
+        if (effort_.spent()) {
+            p.reason = why("");
+            return p;
+        }
         p.tree = std::move(c.tree);
-        if (c.stuck.empty()) { p.label = "clear"; widen(p, c); return p; }
+        if (c.stuck.empty()) {
+            p.label = "clear";
+            widen(p, c);
+            return p;
+        }
         p.t_lo = c.until;
         for (double rel : {2e-13, 6e-13, 1e-11, 1e-9, 1e-6, 1e-4, 1e-2, 1.0}) {
             if (rel > 1e-6 && p.t_lo * rel > 1e-12) break;
@@ -127,16 +153,27 @@ class Prover {
             if (d > p.depth) p.depth = d, best = p.t_hi + f * rest;
         }
         double lo = p.t_hi + (best - p.t_hi) * ratio, hi = std::min(1.0, p.t_hi + (best - p.t_hi) / ratio);
-        for (int i = 1; i < (meshes ? 3 : 9) && hi > lo; ++i) p.depth = std::max(p.depth, depth_of(lo + (hi - lo) * i / (meshes ? 3 : 9)));
+        for (int i = 1; i < (meshes ? 3 : 9) && hi > lo; ++i)
+            p.depth = std::max(p.depth, depth_of(lo + (hi - lo) * i / (meshes ? 3 : 9)));
     }
-    struct Stuck { int a, b; double t; };
-    struct Cover { Tree tree; std::vector<Stuck> stuck; double until = 1, least = 1e300, at = 0; bool found = false; };
+    struct Stuck {
+        int a, b;
+        double t;
+    };
+    struct Cover {
+        Tree tree;
+        std::vector<Stuck> stuck;
+        double until = 1, least = 1e300, at = 0;
+        bool found = false;
+    };
     struct Exact {  // one pair of tree nodes in double-double
         Moving<dd> a;
         Points<dd> b;
         Placed<dd> placed;
         Exact(const Prover& p, int na, int nb)
-            : a{turned(p.sq_, p.A_.nodes[na].v), {}}, b(truth::placed(p.sq_, p.B_.nodes[nb].v)), placed(p.sq_, a, b, p.reach(na, nb)) {}
+            : a{turned(p.sq_, p.A_.nodes[na].v), {}},
+              b(truth::placed(p.sq_, p.B_.nodes[nb].v)),
+              placed(p.sq_, a, b, p.reach(na, nb)) {}
     };
 
     const Solid &A_, &B_;
@@ -152,7 +189,8 @@ class Prover {
 
     bool single() const { return A_.elements.size() == 1 && B_.elements.size() == 1; }
     std::string why(std::string otherwise) const {
-        return effort_.spent() ? "the effort limit of " + std::to_string((long long)effort_.limit) + " vertex visits ran out" : otherwise;
+        return effort_.spent() ? "the effort limit of " + std::to_string((long long)effort_.limit) + " vertex visits ran out"
+                               : otherwise;
     }
     double reach(int na, int nb) const { return A_.nodes[na].far + B_.nodes[nb].far + norm(sd_.dp) + norm(sd_.d); }
     Placed<double> quick(int na, int nb) {
@@ -191,7 +229,8 @@ class Prover {
             double top = dot(n, p[support(p, n)]), range = top + dot(-n, p[support(p, -n)]);
             for (int i = 0; i < int(p.size()); ++i)
                 if (dot(n, p[i]) > top - 4e-3 * range) ids.push_back(i);
-            for (vec<double> u : {vec<double>{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, -n}) ids.push_back(support(p, u));
+            for (vec<double> u : {vec<double>{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, -n})
+                ids.push_back(support(p, u));
             std::sort(ids.begin(), ids.end());
             ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
             return ids;
@@ -208,7 +247,8 @@ class Prover {
         Instant found;
         if (!near.placed || !settle(*near.placed, t, found)) return false;
         if (found.label == "hit")
-            for (int i = 0; i < 4; ++i) found.common.a[i] = near.ids_a[found.common.a[i]], found.common.b[i] = near.ids_b[found.common.b[i]];
+            for (int i = 0; i < 4; ++i)
+                found.common.a[i] = near.ids_a[found.common.a[i]], found.common.b[i] = near.ids_b[found.common.b[i]];
         else {
             Exact e(*this, 0, 0);
             const auto& x = e.placed.at(t);
@@ -226,8 +266,12 @@ class Prover {
         double low = sure - 48 * blur_;
         return std::min(low > 0.99 * sure ? low : sure, sure * (1 - 1e-9));
     }
-    template <class T> bool settle(Placed<T>&& P, double t, Instant& out) { return settle(P, t, out); }
-    template <class T> bool settle(Placed<T>& P, double t, Instant& out) {  // one convex pair
+    template <class T>
+    bool settle(Placed<T>&& P, double t, Instant& out) {
+        return settle(P, t, out);
+    }
+    template <class T>
+    bool settle(Placed<T>& P, double t, Instant& out) {  // one convex pair
         const auto& x = P.at(t);
         auto g = gjk<T>(x, P.b, P.b[0] - x[0], P.reach, 1e-9);
         if (g.status == Status::Apart) {
@@ -250,7 +294,8 @@ class Prover {
     double sphere_gap(int na, int nb, double t) {
         if (t != posed_) {
             auto T = sd_.turn(t);
-            vec<double> c[3] = {{sd_.RA.r[0].x, sd_.RA.r[1].x, sd_.RA.r[2].x}, {sd_.RA.r[0].y, sd_.RA.r[1].y, sd_.RA.r[2].y},
+            vec<double> c[3] = {{sd_.RA.r[0].x, sd_.RA.r[1].x, sd_.RA.r[2].x},
+                                {sd_.RA.r[0].y, sd_.RA.r[1].y, sd_.RA.r[2].y},
                                 {sd_.RA.r[0].z, sd_.RA.r[1].z, sd_.RA.r[2].z}};
             for (int i = 0; i < 3; ++i) pose_.r[i] = {dot(T.r[i], c[0]), dot(T.r[i], c[1]), dot(T.r[i], c[2])};
             posed_ = t;
@@ -260,7 +305,8 @@ class Prover {
         vec<double> x = pose_ * vec<double>{a.centre[0], a.centre[1], a.centre[2]} + shift;
         vec<double> y = sd_.RB * vec<double>{b.centre[0], b.centre[1], b.centre[2]} + sd_.dp;
         double spheres = norm(x - y) - a.radius - b.radius;
-        double boxes = std::max(outside(a, transposed(pose_, y - shift)) - b.radius, outside(b, transposed(sd_.RB, x - sd_.dp)) - a.radius);
+        double boxes =
+            std::max(outside(a, transposed(pose_, y - shift)) - b.radius, outside(b, transposed(sd_.RB, x - sd_.dp)) - a.radius);
         return std::max(spheres, boxes);
     }
     bool split_a(int na, int nb) const {
@@ -281,21 +327,29 @@ class Prover {
             return std::min(ra, rb);
         };
         unsigned long long seed = 11;
-        auto draw = [&] { return double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 2147483648.0 - 0.5; };
+        auto draw = [&] {
+            return double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 2147483648.0 - 0.5;
+        };
         double ra, rb, r = room(x, ra, rb), step = r;
         vec<double> to_a = away_a, to_b = away_b;
         for (int i = 0; i < 20 && step > 3e-2 * r && !effort_.spent(); ++i) {
             vec<double> u;
-            if (i % 3 == 0) u = (to_a + to_b) * (std::min(step, 0.9 * r) / std::max(norm(to_a + to_b), 1e-3));
-            else if (i % 3 == 1) u = ra < rb ? to_a * std::min(0.5 * (rb - ra) + 0.1 * step, 0.9 * r) : to_b * std::min(0.5 * (ra - rb) + 0.1 * step, 0.9 * r);
+            if (i % 3 == 0)
+                u = (to_a + to_b) * (std::min(step, 0.9 * r) / std::max(norm(to_a + to_b), 1e-3));
+            else if (i % 3 == 1)
+                u = ra < rb ? to_a * std::min(0.5 * (rb - ra) + 0.1 * step, 0.9 * r)
+                            : to_b * std::min(0.5 * (ra - rb) + 0.1 * step, 0.9 * r);
             else {
                 u = {draw(), draw(), draw()};
-                u = u * (std::min(step, 0.9 * r) / std::max(norm(u), 1e-3));  // never out of the ball: the next centre is inside too
+                u = u *
+                    (std::min(step, 0.9 * r) / std::max(norm(u), 1e-3));  // never out of the ball: the next centre is inside too
             }
             vec<dd> y = x + vec<dd>{dd(u.x), dd(u.y), dd(u.z)};
             double qa, qb, q = room(y, qa, qb);
-            if (q > r) x = y, r = q, ra = qa, rb = qb, to_a = away_a, to_b = away_b, step = std::min(2 * step, r);
-            else if (i % 3 == 2) step *= 0.6;
+            if (q > r)
+                x = y, r = q, ra = qa, rb = qb, to_a = away_a, to_b = away_b, step = std::min(2 * step, r);
+            else if (i % 3 == 2)
+                step *= 0.6;
         }
         return 2 * r;
     }
@@ -352,8 +406,10 @@ class Prover {
     }
     std::pair<std::pair<int, int>, std::pair<int, int>> children(int na, int nb, double t) {  // nearer first
         std::pair<int, int> c1{na, nb}, c2{na, nb};
-        if (split_a(na, nb)) c1.first = A_.nodes[na].left, c2.first = A_.nodes[na].right;
-        else c1.second = B_.nodes[nb].left, c2.second = B_.nodes[nb].right;
+        if (split_a(na, nb))
+            c1.first = A_.nodes[na].left, c2.first = A_.nodes[na].right;
+        else
+            c1.second = B_.nodes[nb].left, c2.second = B_.nodes[nb].right;
         if (sphere_gap(c2.first, c2.second, t) < sphere_gap(c1.first, c1.second, t)) std::swap(c1, c2);
         return {c1, c2};
     }
@@ -478,9 +534,12 @@ class Prover {
         for (auto& y : crossings<double>(P.at(t), P.b, reach, 1e-6)) found.push_back({dd(y.x), dd(y.y), dd(y.z)});
         return found.empty() ? crossings<dd>(A, B, reach, 1e-25) : found;
     }
-    template <class T> std::vector<vec<T>> crossings(const Points<T>& A, const Points<T>& B, double reach, double least) {
+    template <class T>
+    std::vector<vec<T>> crossings(const Points<T>& A, const Points<T>& B, double reach, double least) {
         unsigned long long seed = 7;
-        auto draw = [&] { return 0.25 + double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 4294967296.0; };
+        auto draw = [&] {
+            return 0.25 + double((seed = seed * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 4294967296.0;
+        };
         auto shrink = [&](const Points<T>& p, double eps) {
             vec<T> m;
             double total = 0;
@@ -524,7 +583,10 @@ class Prover {
             return w && *w != 0;
         }
         for (size_t i = 0; i < s.elements.size(); ++i)
-            if (tetrahedron(s.elements[i], y, ids)) { piece = int(i); return true; }
+            if (tetrahedron(s.elements[i], y, ids)) {
+                piece = int(i);
+                return true;
+            }
         return false;
     }
     bool tetrahedron(const Vertices& element, vec<dd> y, std::array<int, 4>& ids) {
@@ -571,7 +633,7 @@ class Prover {
                 m = m * (dd(1) / dd(total));
                 if (parts_only && !sees(side ? A_ : B_, side, m, t)) continue;
                 if (s.mesh) n = unit(cross(p[1] - p[0], p[2] - p[0]));
-                for (double depth = s.mesh ? 0.05 * std::min(A_.size, B_.size) : 0; ; depth *= 0.02) {
+                for (double depth = s.mesh ? 0.05 * std::min(A_.size, B_.size) : 0;; depth *= 0.02) {
                     if (holds(world(side, m - n * dd(depth), t), t, out)) return true;
                     if (!s.mesh || depth < 1e-18 * s.size || effort_.spent()) break;
                 }
@@ -582,7 +644,8 @@ class Prover {
     // Is point y of side's body inside the other body? Where surfaces are apart, that tells of its whole part.
     bool sees(const Solid& other, int side, vec<dd> y, double t) {
         auto x = world(side, y, t);
-        vec<dd> there = side ? transposed(sq_.RA, transposed(sq_.turn(dd(t)), x - sq_.d * dd(t))) : transposed(sq_.RB, x - sq_.dp);
+        vec<dd> there =
+            side ? transposed(sq_.RA, transposed(sq_.turn(dd(t)), x - sq_.d * dd(t))) : transposed(sq_.RB, x - sq_.dp);
         int piece;
         std::array<int, 4> ids;
         return within(other, there, piece, ids);
@@ -594,7 +657,10 @@ class Prover {
     // A clear sweep: prove it again with a margin close to the least distance, which the places where that fails help to find.
     void widen(Proof& p, const Cover& c) {
         if (theta_ == 0 && single()) {
-            if (!swept(quick(0, 0), p)) { Exact e(*this, 0, 0); swept(std::move(e.placed), p); }
+            if (!swept(quick(0, 0), p)) {
+                Exact e(*this, 0, 0);
+                swept(std::move(e.placed), p);
+            }
             return;
         }
         double least = single() ? c.least : 1e300;  // of groups it would be that of their hulls
@@ -619,7 +685,8 @@ class Prover {
             least = std::min(least, dip(again.until, 1.0 / n));
         }
     }
-    template <class T> bool swept(Placed<T> P, Proof& p) {  // translation of one element: the swept hull's distance and plane
+    template <class T>
+    bool swept(Placed<T> P, Proof& p) {  // translation of one element: the swept hull's distance and plane
         Points<T> both = P.at(0);
         const auto& e = P.at(1);
         both.insert(both.end(), e.begin(), e.end());
@@ -638,8 +705,10 @@ class Prover {
         double lo = std::max(0.0, t - width), hi = std::min(1.0, t + width), least = distance(t);
         double x = hi - r * (hi - lo), y = lo + r * (hi - lo), fx = distance(x), fy = distance(y);
         for (int i = 0; i < (single() ? 36 : 16); ++i) {
-            if (fx < fy) hi = y, y = x, fy = fx, x = hi - r * (hi - lo), fx = distance(x);
-            else lo = x, x = y, fx = fy, y = lo + r * (hi - lo), fy = distance(y);
+            if (fx < fy)
+                hi = y, y = x, fy = fx, x = hi - r * (hi - lo), fx = distance(x);
+            else
+                lo = x, x = y, fx = fy, y = lo + r * (hi - lo), fy = distance(y);
             least = std::min({least, fx, fy});
         }
         return least;

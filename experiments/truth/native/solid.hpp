@@ -6,7 +6,12 @@
 
 namespace truth {
 
-struct Node { int lo, hi, left = -1, right = -1; Vertices v; std::array<double, 3> centre, low, high; double radius, far; };  // far: of a vertex from the origin
+struct Node {
+    int lo, hi, left = -1, right = -1;
+    Vertices v;
+    std::array<double, 3> centre, low, high;
+    double radius, far;
+};  // far: of a vertex from the origin
 
 // Distance of a point of the body's frame from the node's bounding box.
 inline double outside(const Node& n, vec<double> y) {
@@ -19,11 +24,11 @@ class Solid {
   public:
     bool mesh = false;
     std::vector<Vertices> elements;
-    std::vector<int> order;               // elements in the order of the tree's leaves
-    std::vector<Node> nodes;              // nodes[0] is the root and covers order[lo, hi)
-    Vertices vertices;                    // of a mesh
+    std::vector<int> order;   // elements in the order of the tree's leaves
+    std::vector<Node> nodes;  // nodes[0] is the root and covers order[lo, hi)
+    Vertices vertices;        // of a mesh
     std::vector<std::array<int, 3>> faces;
-    std::vector<int> part;                // one element of each piece, or of each connected part of a mesh
+    std::vector<int> part;  // one element of each piece, or of each connected part of a mesh
     double size = 0;
 
     explicit Solid(std::vector<Vertices> pieces) : elements(std::move(pieces)) {
@@ -69,7 +74,8 @@ class Solid {
         if (n.left >= 0) {
             auto far = [&](int i) { return outside(nodes[i], {double(y.x), double(y.y), double(y.z)}); };
             double l = far(n.left), r = far(n.right);
-            for (auto [d, i] : {l < r ? std::pair{l, n.left} : std::pair{r, n.right}, l < r ? std::pair{r, n.right} : std::pair{l, n.left}})
+            for (auto [d, i] :
+                 {l < r ? std::pair{l, n.left} : std::pair{r, n.right}, l < r ? std::pair{r, n.right} : std::pair{l, n.left}})
                 if (d < best) nearest(i, y, best, away);
             return;
         }
@@ -146,7 +152,10 @@ class Solid {
     void connect() {
         std::vector<int> root(vertices.size());
         std::iota(root.begin(), root.end(), 0);
-        auto find = [&](int i) { while (root[i] != i) i = root[i] = root[root[i]]; return i; };
+        auto find = [&](int i) {
+            while (root[i] != i) i = root[i] = root[root[i]];
+            return i;
+        };
         for (auto& t : faces) root[find(t[0])] = find(t[1]), root[find(t[1])] = find(t[2]);
         std::vector<char> seen(vertices.size());
         for (size_t i = 0; i < faces.size(); ++i) {
@@ -168,7 +177,9 @@ class Solid {
             }
             if (u.y == 0 && u.z == 0) {  // along x: past the triangle's bounds?
                 double blur = 1e-14 * (L + scale);
-                auto past = [&](double a, double b, double c) { return (a > blur && b > blur && c > blur) || (a < -blur && b < -blur && c < -blur); };
+                auto past = [&](double a, double b, double c) {
+                    return (a > blur && b > blur && c > blur) || (a < -blur && b < -blur && c < -blur);
+                };
                 if (past(w[0].y, w[1].y, w[2].y) || past(w[0].z, w[1].z, w[2].z)) continue;
             }
             double bound = 1e-14 * 16 * L * (L + scale), e[3];

@@ -28,7 +28,9 @@ def convex_query(rng, question: str, a: Body | None = None, b: Body | None = Non
     motion = Motion()
     if question != "overlap":
         angle = float(np.float32(rng.uniform(-6, 6))) if question == "motion" else 0.0
-        motion = Motion(single((away + 0.3 * rng.normal(size=3)) * rng.uniform(0.2, 3) * reach), single(rng.normal(size=3)), angle)
+        motion = Motion(
+            single((away + 0.3 * rng.normal(size=3)) * rng.uniform(0.2, 3) * reach), single(rng.normal(size=3)), angle
+        )
     return Query(question, a, b, pose_a, pose_b, motion)
 
 
@@ -71,12 +73,15 @@ def reversed_in_time(q: Query) -> Query:
 
 def composite_query(rng, question: str) -> Query:
     """Unions, closed concave meshes and hulls against each other, near enough to hit about as often as not."""
+
     def body():
         kind = rng.integers(3)
         if kind == 0:
             return hull(rng, 10)
         if kind == 1:
-            return Body.union([Body.convex(single(rng.normal(size=(8, 3)) * 0.4 + rng.normal(size=3))) for _ in range(4)], "union")
+            return Body.union(
+                [Body.convex(single(rng.normal(size=(8, 3)) * 0.4 + rng.normal(size=3))) for _ in range(4)], "union"
+            )
         torus = trimesh.creation.torus(1.0, 0.35, major_sections=10, minor_sections=6)
         return Body.mesh(single(torus.vertices), torus.faces, "torus")
 

@@ -106,8 +106,8 @@ def test_balls_alone_agree_with_the_doubles():
 
 
 def test_junk_anywhere_in_a_certificate_is_refused_without_harm_to_the_rest():
-    """Nothing raises, and the honest label in the same batch still verifies. What is accepted (a later end of an instant, the null of a
-    mesh) has to be accepted by balls alone too."""
+    """Nothing raises, and the honest label in the same batch still verifies. What is accepted (a later end of an instant, the
+    null of a mesh) has to be accepted by balls alone too."""
     rng = np.random.default_rng(13)
     junk = ["x", "1/0", None, float("nan"), float("inf"), -1, 1e308, [], {}, True, "0x1"]
     honest = convex_query(rng, "overlap")

@@ -41,17 +41,33 @@ def test_gaps_of_1e_14_at_scales_of_1e_9_to_1e9(power, gap):
 def test_far_from_the_origin(offset):
     unit = box(1, 1, 1)
     for gap in (2.0**-20, -(2.0**-20)):
-        truth = label(Query("overlap", unit, unit, Pose(position=[offset] * 3), Pose(position=[offset + 1 + gap, offset, offset])))
+        truth = label(
+            Query("overlap", unit, unit, Pose(position=[offset] * 3), Pose(position=[offset + 1 + gap, offset, offset]))
+        )
         assert truth.label == ("clear" if gap > 0 else "hit") and np.isclose(truth.gap, gap, rtol=0.01)
-    near, far = (label(Query("motion", unit, unit, Pose(position=[p] * 3), Pose([0.5, 0.5, 0.25, 0], [p + 4, p, p]),
-                             Motion([10, 0, 0], [0, 1, 1], 20.0))) for p in (0.0, offset))
+    near, far = (
+        label(
+            Query(
+                "motion",
+                unit,
+                unit,
+                Pose(position=[p] * 3),
+                Pose([0.5, 0.5, 0.25, 0], [p + 4, p, p]),
+                Motion([10, 0, 0], [0, 1, 1], 20.0),
+            )
+        )
+        for p in (0.0, offset)
+    )
     assert (near.label, near.t_lo, near.t_hi) == (far.label, far.t_lo, far.t_hi)
 
 
 @pytest.mark.parametrize("make", (box, mesh_box))
 def test_a_wall_of_1e_9_at_speed_1e6(make):
     ball, wall = make(0.125, 0.125, 0.125), make(2.0**-30, 8, 8)
-    for question, motion in (("translation", Motion([2.0**20, 0.125, 0.25])), ("motion", Motion([2.0**20, 0.125, 0.25], [1, 1, 1], 50.0))):
+    for question, motion in (
+        ("translation", Motion([2.0**20, 0.125, 0.25])),
+        ("motion", Motion([2.0**20, 0.125, 0.25], [1, 1, 1], 50.0)),
+    ):
         truth = label(Query(question, ball, wall, Pose([0.9, 0.1, 0.2, 0.3], [-(2.0**18), 0.1, 0]), Pose(), motion))
         assert (truth.label, truth.start, truth.end) == ("hit", "clear", "clear")
         assert abs(truth.t_lo - 0.25) < 2e-7 and truth.t_hi - truth.t_lo <= 1e-12
@@ -68,7 +84,11 @@ def test_a_hundred_turns_in_a_step():
 @pytest.mark.parametrize("body", (box(1, 1, 1), mesh_box(1, 1, 1), torus()), ids=("hull", "mesh", "torus"))
 def test_a_body_against_its_own_copy_in_place(body):
     pose = Pose([0.3, 0.2, 0.1, 0.9], [0.125, 0.25, 0.5])
-    for question, motion in (("overlap", Motion()), ("translation", Motion([1, 0, 0])), ("motion", Motion(axis=[0, 0, 1], angle=9.0))):
+    for question, motion in (
+        ("overlap", Motion()),
+        ("translation", Motion([1, 0, 0])),
+        ("motion", Motion(axis=[0, 0, 1], angle=9.0)),
+    ):
         truth = label(Query(question, body, body, pose, pose, motion))
         assert truth.label == truth.start == "hit"
 
@@ -76,7 +96,11 @@ def test_a_body_against_its_own_copy_in_place(body):
 @pytest.mark.parametrize("make", (box, mesh_box))
 def test_touching_is_uncertain_and_says_so(make):
     a = make(2, 2, 2)
-    for question, motion in (("overlap", Motion()), ("translation", Motion([0, 1, 0])), ("motion", Motion(axis=[1, 0, 0], angle=1.0))):
+    for question, motion in (
+        ("overlap", Motion()),
+        ("translation", Motion([0, 1, 0])),
+        ("motion", Motion(axis=[1, 0, 0], angle=1.0)),
+    ):
         truth = label(Query(question, a, a, Pose(), Pose(position=[2, 0, 0]), motion))
         assert truth.label == "uncertain" and "touching" in truth.reason
 
@@ -101,8 +125,11 @@ def test_nearly_flat_and_tiny_pieces():
 
 def test_containment_is_a_hit_unless_in_a_cavity():
     outer, inner = trimesh.creation.box((4, 4, 4)), trimesh.creation.box((3, 3, 3))
-    hollow = Body.mesh(np.concatenate([outer.vertices, inner.vertices]),
-                       np.concatenate([outer.faces, inner.faces[:, ::-1] + len(outer.vertices)]), "hollow")
+    hollow = Body.mesh(
+        np.concatenate([outer.vertices, inner.vertices]),
+        np.concatenate([outer.faces, inner.faces[:, ::-1] + len(outer.vertices)]),
+        "hollow",
+    )
     small = mesh_box(1, 1, 1)
     assert label(Query("overlap", small, mesh_box(4, 4, 4))).label == "hit"
     assert label(Query("overlap", box(1, 1, 1), mesh_box(4, 4, 4))).label == "hit"

@@ -16,8 +16,12 @@ from .draw import composite_query, convex_query
 
 def test_certificates_survive_json_and_verify():
     rng = np.random.default_rng(9)
-    queries = [draw(rng, question) for question in ("overlap", "translation", "motion") for draw in (convex_query, composite_query)
-               for _ in range(6)]
+    queries = [
+        draw(rng, question)
+        for question in ("overlap", "translation", "motion")
+        for draw in (convex_query, composite_query)
+        for _ in range(6)
+    ]
     truths = label_many(queries)
     stored = [replace(t, certificate=json.loads(json.dumps(t.certificate))) for t in truths]
     result = verify(zip(queries, stored))
