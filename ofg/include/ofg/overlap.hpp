@@ -82,36 +82,69 @@ bool holds(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& a_to_b, const
   return true;
 }
 
+// What a discrete query knows after step 1.
+template <class T>
+struct Near {
+  Transform<T> to_b, to_a;
+  double slack;
+};
+
+// Steps 2 to 8 with one choice of k.
+template <int Last, class T>
+void oppose(const Mesh<T>& a, const Mesh<T>& b, const Near<T>& near, const Options& o, Workspace<T>& w, Answer& answer) {
+  if constexpr (Last < 2) return;
+  Counts& counts = answer.counts;
+  const Vec3<T> centre_b = near.to_a(b.centre);
+  select(a, &centre_b, 1, o, b.radius, w, w.a, counts);  // 2, 3, 7
+  if constexpr (Last < 4) return;
+  const Vec3<T> centre_a = near.to_b(w.a.centre);
+  select(b, &centre_a, 1, o, w.a.radius, w, w.b, counts);  // 4, 5, 7
+  ++counts.spheres;
+  if (spheres_apart(Vec3<double>(centre_a - w.b.centre), double(w.a.radius) + double(w.b.radius) + near.slack)) return;  // 6
+  if constexpr (Last < 8) return;
+  move(near.to_b, w.a);
+  answer.hit = faces_meet(w.a, w.b, scale_of(a, b, near.to_b.p), centre_a - w.b.centre, w, answer);  // 8
+  if (answer.hit) answer.found = Found::start;
+}
+
+// One plane between the hulls of the whole meshes at one pose.
+template <class T>
+bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T gap, Vec3<T>& axis) {
+  const Mat3<T> back = to_b.r.transposed();
+  const CloudView<T> hull_a = a.cloud.view(), hull_b = b.cloud.view();
+  static constexpr T zeros[lanes<T>] = {};
+  const CloudView<T> origin{zeros, zeros, zeros, lanes<T>};
+  return separated(axis, gap, [&](const Vec3<T>& v) { return to_b(support(hull_a, origin, back * v)) + support(origin, hull_b, v); }, 24);
+}
+
 }  // namespace detail
 
 // Convex or not, `a` and `b` are tested as surfaces (with `containment` as solids). Does not allocate once `w` has room for both.
+// Adaptive k starts from k, and grows only where neither faces that meet nor a plane between the bodies settles the matter.
 // Last: the step after which to stop, so that the cost of each can be measured; nothing else has a use for less than 8.
 template <int Last = 8, class T>
 Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o, Workspace<T>& w) {
   Answer answer;
-  Counts& counts = answer.counts;
-  counts.spheres = counts.steps = 1;
+  answer.counts.spheres = answer.counts.steps = 1;
   const Transform<double> pose = track.at(0);
   const Vec3<double> apart = pose(Vec3<double>(a.centre)) - Vec3<double>(b.centre);
   const double slack = rounding<T> * (length(pose.p) + a.extent + b.extent);
   if (detail::spheres_apart(apart, double(a.radius) + double(b.radius) + slack)) return answer;  // 1
-  const Transform<T> to_b(pose), to_a(pose.inverse());
-  if (detail::holds(a, b, to_b, o, answer)) {
+  const detail::Near<T> near{Transform<T>(pose), Transform<T>(pose.inverse()), slack};
+  if (detail::holds(a, b, near.to_b, o, answer)) {
     answer.hit = true;
     return answer;
   }
-  if constexpr (Last < 2) return answer;
-  const Vec3<T> centre_b = to_a(b.centre);
-  select(a, &centre_b, 1, o, b.radius, w, w.a, counts);  // 2, 3, 7
-  if constexpr (Last < 4) return answer;
-  const Vec3<T> centre_a = to_b(w.a.centre);
-  select(b, &centre_a, 1, o, w.a.radius, w, w.b, counts);  // 4, 5, 7
-  ++counts.spheres;
-  if (detail::spheres_apart(Vec3<double>(centre_a - w.b.centre), double(w.a.radius) + double(w.b.radius) + slack)) return answer;  // 6
-  if constexpr (Last < 8) return answer;
-  move(to_b, w.a);
-  answer.hit = detail::faces_meet(w.a, w.b, detail::scale_of(a, b, to_b.p), centre_a - w.b.centre, w, answer);  // 8
-  if (answer.hit) answer.found = Found::start;
+  if (!o.adaptive_k) {
+    detail::oppose<Last>(a, b, near, o, w, answer);
+    return answer;
+  }
+  Options first = o;
+  first.adaptive_k = false;
+  detail::oppose<Last>(a, b, near, first, w, answer);
+  Vec3<T> axis(apart);
+  if (answer.hit || detail::hulls_apart(a, b, near.to_b, T(4 * slack), axis)) return answer;
+  detail::oppose<Last>(a, b, near, o, w, answer);
   return answer;
 }
 

@@ -118,13 +118,34 @@ void nearest_centres(const Mesh<T>& m, const Vec3<T>& point, int k, Workspace<T>
   if (int(found.size()) > k) k_nearest(found, k);
 }
 
-// By any distance, face by face.
+// By distance to the faces themselves. A face is no nearer than its centre less its radius, and the k with the nearest centres bound the
+// k-th distance, so most faces are passed over; those within `reach` never are.
 template <class T>
-void all_distances(const Mesh<T>& m, const Vec3<T>& p, Nearest nearest, Workspace<T>& w, Counts& counts) {
+void nearest_triangles(const Mesh<T>& m, const Vec3<T>& p, int k, T reach, Workspace<T>& w, Counts& counts) {
+  T limit = std::numeric_limits<T>::infinity();
+  if (k <= block_faces && k <= m.size()) {
+    nearest_centres(m, p, k, w, w.candidates, counts);
+    T farthest = 0;
+    for (const auto& c : w.candidates) farthest = std::fmax(farthest, squared_distance(p, m.triangle(c.face)));
+    limit = std::fmax(std::sqrt(farthest), reach) + 4 * rounding<T> * (m.extent + length(p));
+  }
   w.candidates.clear();
   for (int f = 0; f < m.size(); ++f) {
     const Vec3<T> d = m.centres[std::size_t(f)] - p;
-    w.candidates.push_back({nearest == Nearest::triangle ? squared_distance(p, m.triangle(f)) : dot(d, d), f});
+    const T far = limit + m.face_radius[std::size_t(f)];
+    if (dot(d, d) > far * far) continue;
+    w.candidates.push_back({squared_distance(p, m.triangle(f)), f});
+  }
+  counts.evaluated += std::int64_t(w.candidates.size());
+}
+
+// By distance to the centres, face by face.
+template <class T>
+void all_centres(const Mesh<T>& m, const Vec3<T>& p, Workspace<T>& w, Counts& counts) {
+  w.candidates.clear();
+  for (int f = 0; f < m.size(); ++f) {
+    const Vec3<T> d = m.centres[std::size_t(f)] - p;
+    w.candidates.push_back({dot(d, d), f});
   }
   counts.evaluated += m.size();
 }
@@ -181,7 +202,8 @@ void select(const Mesh<T>& m, const Vec3<T>* points, int n_points, const Options
     s.near.push_back(x);
   };
   for (int i = 0; i < n_points; ++i) {
-    detail::all_distances(m, points[i], o.nearest, w, counts);
+    if (o.nearest == Nearest::triangle) detail::nearest_triangles(m, points[i], o.k, o.adaptive_k ? reach : T(0), w, counts);
+    else detail::all_centres(m, points[i], w, counts);
     if (o.adaptive_k)
       for (const auto& x : w.candidates)
         if (!detail::out_of_reach(m, x, reach, o.nearest)) take(x);

@@ -326,7 +326,8 @@ struct Sweep {
       if (swept_spheres_apart(a, b, track, x.t0, x.t1, slack(x))) return false;
     }
     const double away = tolerance < std::numeric_limits<double>::infinity() ? stray(a, track, x.t1 - x.t0) : 0;
-    if (away > 0 && away < a.radius && hulls_apart(a, b, x, T(away + slack(x)), axis)) return false;
+    const bool proof = away > 0 || (o.adaptive_k && !track.turns());
+    if (proof && away < a.radius && hulls_apart(a, b, x, T(away + slack(x)), axis)) return false;
     if (!(away > tolerance) || depth == 24) return sweep_window(a, b, track, x, first, o, w, answer);
     const double middle = (x.t0 + x.t1) / 2;
     const Transform<double> pose = track.at(middle);
