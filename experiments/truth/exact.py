@@ -6,6 +6,7 @@ plane replaces one of them until none is lower (Snethen 2008 calls the triangle 
 
 from __future__ import annotations
 
+from functools import cache
 from itertools import combinations
 
 import numpy as np
@@ -69,6 +70,11 @@ def _pierced(c, d):
     return [x / total for x in w]
 
 
+@cache
+def _triples(n):
+    return np.array(list(combinations(range(n), 3)))
+
+
 def _portals(query, a, b, plane):
     """Triples of vertex pairs near the plane's supports whose triangle the ray seems to pierce, the best conditioned first."""
     A, B = a @ query.pose_a.rotation.T, b @ query.pose_b.rotation.T
@@ -76,14 +82,15 @@ def _portals(query, a, b, plane):
     key_a, key_b = A @ n, B @ n
     size = np.ptp(key_a) + np.ptp(key_b)
     dp, d = query.pose_b.position - query.pose_a.position, query.motion.displacement
-    for near in (1e-10, 1e-7, 1e-4, 1e-2, 0.1, 0.5):
+    for near, most in ((1e-10, 9), (1e-10, 32), (1e-7, 32), (1e-4, 32), (1e-2, 32), (0.1, 32), (0.5, 32)):
         ia = np.flatnonzero(key_a >= key_a.max() - near * size)
         ib = np.flatnonzero(key_b <= key_b.min() + near * size)
-        pairs = sorted(((key_b[j] - key_a[i], i, j) for i in ia for j in ib))[:32]
-        if len(pairs) < 3:
+        pairs = sorted(((key_b[j] - key_a[i], i, j) for i in ia for j in ib))
+        if len(pairs) < 3 or (most == 32 and near == 1e-10 and len(pairs) <= 9):
             continue
+        pairs = pairs[:most]
         c = np.array([B[j] + dp - A[i] for _, i, j in pairs])
-        triples = np.array(list(combinations(range(len(pairs)), 3)))
+        triples = _triples(len(pairs))
         x, y, z = (c[triples[:, k]] for k in range(3))
         w = np.stack([np.cross(y, z) @ d, np.cross(z, x) @ d, np.cross(x, y) @ d], 1)
         total = np.where(w.sum(1) == 0, np.nan, w.sum(1))

@@ -101,3 +101,16 @@ def test_unions_and_meshes_are_settled(question):
         kinds.add((query.a.kind, query.b.kind))
         labels.add(truth.label)
     assert len(kinds) > 6 and labels == {"hit", "clear"}
+
+
+def test_the_time_of_a_translation_is_an_exact_rational():
+    from fractions import Fraction
+
+    wall = Body.convex(CUBE.vertices * [0.25, 4, 4])
+    query = Query("translation", CUBE, wall, Pose(), Pose([1, 0, 0, 0], [3, 0.25, 0.5]), Motion([7, 0, 0]))
+    assert Fraction(label(query).certificate["exact"]["time"]) == Fraction(7, 28)
+    rng = np.random.default_rng(14)
+    hits = [t for t in (label(convex_query(rng, "translation")) for _ in range(60)) if t.label == "hit" and t.start == "clear"]
+    times = [Fraction(t.certificate["exact"]["time"]) for t in hits if "exact" in t.certificate]
+    assert len(times) == len(hits) > 20
+    assert all(t.t_lo <= time <= t.t_hi for t, time in zip(hits, times))
