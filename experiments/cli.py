@@ -160,6 +160,9 @@ def compare(
         for names, folder in ((left, first), (right, second)):
             if names:
                 console.print(f"[bold]Only in {folder}[/]: {len(names)} {what}: {', '.join(names[:8])}{', ...' if len(names) > 8 else ''}", highlight=False)
+    if found.remade:
+        console.print(f"{len(found.remade)} cases ask another question in {second} (other bodies, poses or motion) and are not compared: "
+                      f"{', '.join(found.remade[:8])}{', ...' if len(found.remade) > 8 else ''}", highlight=False)
     for title, frame in (("Labels that moved: the truth of the two runs differs.", found.labels), ("Answers that moved.", found.answers)):
         if len(frame):
             _print_grid(title, frame.columns, list(frame.head(show).itertuples(index=False)), f"{min(show, len(frame))} of {len(frame)}.")

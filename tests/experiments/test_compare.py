@@ -74,6 +74,19 @@ def test_what_only_one_run_has_is_said(run, tmp_path, column, names):
     assert not found.identical and [len(side) for side in getattr(found, names)] == [1, 0] and found.answers.empty
 
 
+def moved_away(cases):
+    cases = cases.copy()
+    cases["angle"] = [9.0, *cases.angle[1:]]
+    return cases
+
+
+def test_a_case_that_asks_another_question_is_not_compared(run, tmp_path):
+    other = changed(run, tmp_path / "remade", "cases.parquet", moved_away)
+    found = compare.compare(run, other)
+    assert len(found.remade) == 1 and found.compared == 8 * 3 and found.answers.empty
+    assert not found.identical, "one of nine is more than a tenth"
+
+
 def test_time_is_paired_by_case(run, tmp_path):
     def timings(store, factor):
         rows = [("overlap", "to 24", "near", "fcl-convex", case, 10, [int(factor * 1000 * (i + 1))] * 3) for i, case in enumerate("abcd")]
