@@ -1,4 +1,7 @@
-"""Which cases stand behind a cell of a table: a link is a few conditions that `select` here and `casesOf` in page/data.js read alike."""
+"""Which cases stand behind a cell of a table.
+
+A link is a few conditions that `select` here and `casesOf` in page/data.js read alike.
+"""
 
 from __future__ import annotations
 
@@ -11,18 +14,44 @@ from ofg import QUESTIONS
 from ..timing import SIZES
 
 #: column of a table -> kind of the rows that it counts
-COLUMNS = {"misses": "miss", "tunnelled": "tunnelled", "false alarms": "false alarm", "in margin": "conservative", "answered": "answered",
-           "times": "timed", "median |error|": "timed", "latest": "late", "late": "late", "earliest": "early", "early": "early"}
+COLUMNS = {
+    "misses": "miss",
+    "tunnelled": "tunnelled",
+    "false alarms": "false alarm",
+    "in margin": "conservative",
+    "answered": "answered",
+    "times": "timed",
+    "median |error|": "timed",
+    "latest": "late",
+    "late": "late",
+    "earliest": "early",
+    "early": "early",
+}
 LABELS = {"cases": None, "hit": "hit", "clear": "clear", "uncertain": "uncertain"}
 #: value of a table that an experiment asked for -> kind of the rows that it is over
-VALUES = {"misses": "judged hit", "false alarms": "judged clear", "wrong": "judged", "tunnelled": "can tunnel", "answered": "asked", "time error": "timed",
-          "latest": "timed", "earliest": "timed", "net time": "clocked", "gross time": "clocked", "build time": "clocked", "ratio": "clocked"}
+VALUES = {
+    "misses": "judged hit",
+    "false alarms": "judged clear",
+    "wrong": "judged",
+    "tunnelled": "can tunnel",
+    "answered": "asked",
+    "time error": "timed",
+    "latest": "timed",
+    "earliest": "timed",
+    "net time": "clocked",
+    "gross time": "clocked",
+    "build time": "clocked",
+    "ratio": "clocked",
+}
 LABELLED = ("right", "miss", "false alarm", "conservative")
 
 
 def links(table, found: pd.DataFrame) -> list[list[dict | None]]:
-    """A link, or None, for each cell of table.text. Keys of a link, all optional: method, question, scenario, level, band, sizes, situation, label;
-    scenarios, levels (any of them); tag ([name, values], any of them); detail (its beginning); kind (see `kinds`)."""
+    """A link, or None, for each cell of table.text.
+
+    Keys of a link, all optional: method, question, scenario, level, band, sizes, situation, label; scenarios, levels (any of
+    them); tag ([name, values], any of them); detail (its beginning); kind (see `kinds`).
+    """
     if table.choice:
         return _chosen(table, found)
     scenarios, bands = set(found.scenario.unique()), set(_bands(found))
@@ -44,10 +73,22 @@ def links(table, found: pd.DataFrame) -> list[list[dict | None]]:
 def _chosen(table, found: pd.DataFrame) -> list[list[dict | None]]:
     """Links of a table that an experiment asked for: a row per method, a column per value of its choice."""
     choice = table.choice
-    place = {"kind": VALUES[choice.value], **({"question": choice.question} if choice.question else {}), **({"scenarios": list(choice.scenarios)} if choice.scenarios else {})}
+    place = {
+        "kind": VALUES[choice.value],
+        **({"question": choice.question} if choice.question else {}),
+        **({"scenarios": list(choice.scenarios)} if choice.scenarios else {}),
+    }
     columns = {str(column): _values(choice.columns, str(column), found) for column in table.text.columns[1:]}
-    return [[None, *({"method": row[0], **place, **columns[str(c)]} if value != "-" and columns[str(c)] else None for c, value in zip(table.text.columns[1:], row[1:]))]
-            for row in table.text.astype(str).values.tolist()]
+    return [
+        [
+            None,
+            *(
+                {"method": row[0], **place, **columns[str(c)]} if value != "-" and columns[str(c)] else None
+                for c, value in zip(table.text.columns[1:], row[1:])
+            ),
+        ]
+        for row in table.text.astype(str).values.tolist()
+    ]
 
 
 def _values(name: str, column: str, found: pd.DataFrame) -> dict | None:
@@ -66,7 +107,9 @@ def _link(name, column, value, row, place, scenarios, bands) -> dict | None:
     if value in ("-", "", "0 (0)"):
         return None
     if name == "truth":
-        return {"scenario": row["scenario"], **({"label": LABELS[column]} if LABELS[column] else {})} if column in LABELS else None
+        return (
+            {"scenario": row["scenario"], **({"label": LABELS[column]} if LABELS[column] else {})} if column in LABELS else None
+        )
     if "method" not in row or column == "method":
         return None
     link = {"method": row["method"], **place}
@@ -103,8 +146,8 @@ def select(found: pd.DataFrame, link: dict, clocked: set[tuple[str, str]] = froz
 
 
 def kinds(found: pd.DataFrame, kind: str, clocked=frozenset()) -> pd.Series:
-    """An outcome; "tunnelled", "wrong"; what rates are over: "judged", "judged hit", "judged clear", "can tunnel", "asked", "answered"; "timed" (has an
-    error of its time), "late", "early"; "clocked" (timed by the clock); "all"."""
+    """An outcome; "tunnelled", "wrong"; what rates are over: "judged", "judged hit", "judged clear", "can tunnel", "asked",
+    "answered"; "timed" (has an error of its time), "late", "early"; "clocked" (timed by the clock); "all"."""
     if kind == "all":
         return pd.Series(True, found.index)
     if kind == "wrong":

@@ -11,9 +11,10 @@ MOST_PLANES = 4000  # of one case; a proof about two large meshes has more than 
 def drawable(certificate: Mapping[str, Any], most: int = MOST_PLANES) -> dict:
     """The parts of a certificate (experiments/truth/README.md) with rationals rounded to doubles.
 
-    "clear", "end_clear": {"planes": n, "leaves": [[s, e, frame, nx, ny, nz, a_from, a_to, b_from, b_to], ...], "order_a", "order_b"}: over
-    [s, e] the normal n, fixed in the world (frame "W") or turning with A ("A"), points from the elements order_a[a_from:a_to] of A to
-    order_b[b_from:b_to] of B and separates them. An order is left out where it is 0, 1, 2, ...; the leaves where there are more than `most`.
+    "clear", "end_clear": {"planes": n, "leaves": [[s, e, frame, nx, ny, nz, a_from, a_to, b_from, b_to], ...], "order_a",
+    "order_b"}: over [s, e] the normal n, fixed in the world (frame "W") or turning with A ("A"), points from the elements
+    order_a[a_from:a_to] of A to order_b[b_from:b_to] of B and separates them. An order is left out where it is 0, 1, 2, ...;
+    the leaves where there are more than `most`.
     "hit", "end_hit": {"point": [x, y, z]} in the world.
     """
     found = {}

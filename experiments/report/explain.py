@@ -1,9 +1,10 @@
 """One case as a page of its own, from a run or from a file.
 
-The file (JSON): {"case": the row of cases.parquet, "bodies": its two rows of bodies.parquet (one where both are equal), "observations": rows
-of observations.parquet, may be missing}. A file written by hand needs of "case": question, body_a, body_b, and what is not at rest of quaternion_a,
-position_a, quaternion_b, position_b, displacement, axis, angle; of a body: body (any name), kind, vertices, faces (flat lists; a convex body needs no
-faces; a union piece_vertices and piece_faces). Where it has no label the case is certified anew.
+The file (JSON): {"case": the row of cases.parquet, "bodies": its two rows of bodies.parquet (one where both are equal),
+"observations": rows of observations.parquet, may be missing}. A file written by hand needs of "case": question, body_a, body_b,
+and what is not at rest of quaternion_a, position_a, quaternion_b, position_b, displacement, axis, angle; of a body: body (any
+name), kind, vertices, faces (flat lists; a convex body needs no faces; a union piece_vertices and piece_faces). Where it has no
+label the case is certified anew.
 """
 
 from __future__ import annotations
@@ -46,8 +47,10 @@ def from_run(store: Store, name: str) -> Explained:
     rows = store.read("cases.parquet")
     row = rows[rows.case == name]
     if row.empty:
-        raise StoreError(f"The run {store.folder} has no case '{name}'{closest(name, rows.case)}. A case is named scenario/level/index, as in the gallery of its "
-                         "report.html and in cases.parquet.")
+        raise StoreError(
+            f"The run {store.folder} has no case '{name}'{closest(name, rows.case)}. A case is named scenario/level/index, as in the "
+            "gallery of its report.html and in cases.parquet."
+        )
     bodies = store.read("bodies.parquet")
     ((case, truth),) = cases_of(row, bodies[bodies.body.isin([row.body_a.iloc[0], row.body_b.iloc[0]])])
     said = store.read("observations.parquet").query("case == @name").reset_index(drop=True)
@@ -57,23 +60,42 @@ def from_run(store: Store, name: str) -> Explained:
 def from_file(path: Path) -> Explained:
     """ConfigError where the file cannot be read, naming the field."""
     if not path.is_file():
-        raise ConfigError(f"The case file {path} does not exist. Write one from a run with: ofg-bench explain CASE --run RUN --save {path}")
+        raise ConfigError(
+            f"The case file {path} does not exist. Write one from a run with: ofg-bench explain CASE --run RUN --save {path}"
+        )
     try:
         content = json.loads(path.read_text())
         made = {b["body"]: _body(b) for b in content["bodies"]}
         row = content["case"]
-        query = Query(row["question"], made[row["body_a"]], made[row["body_b"]], _pose(row, "a"), _pose(row, "b"),
-                      Motion(row.get("displacement", [0, 0, 0]), row.get("axis", [0, 0, 1]), row.get("angle", 0.0)))
-        case = Case(row.get("case", path.stem), row.get("scenario", path.stem), float(row.get("level", 0)), int(row.get("index", 0)), query, _tags(row))
+        query = Query(
+            row["question"],
+            made[row["body_a"]],
+            made[row["body_b"]],
+            _pose(row, "a"),
+            _pose(row, "b"),
+            Motion(row.get("displacement", [0, 0, 0]), row.get("axis", [0, 0, 1]), row.get("angle", 0.0)),
+        )
+        case = Case(
+            row.get("case", path.stem),
+            row.get("scenario", path.stem),
+            float(row.get("level", 0)),
+            int(row.get("index", 0)),
+            query,
+            _tags(row),
+        )
         truth = _truth(row) if "label" in row else _certify(query)
         said = pd.DataFrame(content.get("observations", []), columns=COLUMNS)
     except json.JSONDecodeError as error:
         raise ConfigError(f"The case file {path} is not valid JSON: {error}.") from error
     except KeyError as error:
-        raise ConfigError(f"The case file {path} lacks the field {error}. It needs \"case\" and \"bodies\": see the head of experiments/report/explain.py, or write one "
-                          "from a run with: ofg-bench explain CASE --run RUN --save case.json") from error
+        raise ConfigError(
+            f'The case file {path} lacks the field {error}. It needs "case" and "bodies": see the head of experiments/report/explain.py, or write one '
+            "from a run with: ofg-bench explain CASE --run RUN --save case.json"
+        ) from error
     except (TypeError, ValueError, AttributeError, IndexError) as error:
-        raise ConfigError(f"The case file {path} has a field of the wrong form ({error}). Compare it with one written by: ofg-bench explain CASE --run RUN --save case.json") from error
+        raise ConfigError(
+            f"The case file {path} has a field of the wrong form ({error}). Compare it with one written by: ofg-bench explain CASE --run RUN --save case.json"
+        ) from error
     return Explained(case, truth, case_row(case, truth, 0), _typed(said))
 
 
@@ -81,7 +103,10 @@ def save(explained: Explained, path: Path) -> None:
     """The file that `from_file` reads."""
     q = explained.case.query
     bodies = {row["body"]: row for row in (body_row(q.a), body_row(q.b))}
-    said = [{k: None if v is pd.NA or v != v else v for k, v in row.items()} for row in explained.said[COLUMNS].astype(object).to_dict("records")]
+    said = [
+        {k: None if v is pd.NA or v != v else v for k, v in row.items()}
+        for row in explained.said[COLUMNS].astype(object).to_dict("records")
+    ]
     content = {"case": _listed(explained.row), "bodies": list(bodies.values()), "observations": said}
     path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n")
 
@@ -92,14 +117,21 @@ def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
     rows: list[dict] = []
     tasks = []
     for method in (m for spec in config.asked for m in registry.make(spec)):
+
         def lost(case, status, detail, label=method.label):
             return answering._row(case, label, status, detail=detail)
+
         tasks.append(pool.Task(answering._open, (method.label, config), [explained.case], rows.extend, lost))
     pool.run(tasks, 2, config.build_seconds + config.query_seconds, log, prepare=partial(load_files, config))
     order = {task.argument[0]: i for i, task in enumerate(tasks)}
     fresh = pd.DataFrame(sorted(rows, key=lambda r: order[r["method"]]), columns=COLUMNS)
     kept = explained.said[~explained.said.method.isin(fresh.method)]
-    return Explained(explained.case, explained.truth, explained.row, _typed(pd.concat([fresh, kept], ignore_index=True) if len(kept) else fresh))
+    return Explained(
+        explained.case,
+        explained.truth,
+        explained.row,
+        _typed(pd.concat([fresh, kept], ignore_index=True) if len(kept) else fresh),
+    )
 
 
 def command(name, run_, file, out, save_to, anew, methods, method_files, print_grid, say) -> None:
@@ -110,12 +142,22 @@ def command(name, run_, file, out, save_to, anew, methods, method_files, print_g
         store = Store(run_)
         config = store.config
         load_files(config)
-        found, versions, known = from_run(store, name), json.loads(store.path("manifest.json").read_text())["versions"], config.asked
+        found, versions, known = (
+            from_run(store, name),
+            json.loads(store.path("manifest.json").read_text())["versions"],
+            config.asked,
+        )
     else:
         found, versions = from_file(file), {}
         known = tuple(found.said.method)
         config = RunConfig(seed=0, methods=known or ("ofg",), scenarios=[{"name": found.case.scenario, "cases": 1}])
-    config = config.model_copy(update={"methods": tuple(methods) or known or load("quick").methods, "optional_methods": (), "method_files": config.method_files + method_files})
+    config = config.model_copy(
+        update={
+            "methods": tuple(methods) or known or load("quick").methods,
+            "optional_methods": (),
+            "method_files": config.method_files + method_files,
+        }
+    )
     if anew or not len(found.said):
         with tempfile.TemporaryDirectory() as folder:
             found = ask(found, config, Path(folder, "workers.log"))
@@ -126,9 +168,16 @@ def command(name, run_, file, out, save_to, anew, methods, method_files, print_g
     sweep = found.case.query.question != "overlap"
     bracket = f", time of impact in [{t.t_lo!r}, {t.t_hi!r}]" if sweep and t.label == "hit" else ""
     columns = ("method", "verdict", *(("time", "error") if sweep else ()), "detail")
-    rows = [(r.method, r.outcome, *((_digits(r.time), _digits(r.error)) if sweep else ()), r.detail or "") for r in verdicts(found).itertuples()]
-    print_grid(f"{found.case.id}: certified {t.label}{bracket}, gap {t.gap:.3g}{'. ' + t.reason if t.reason else ''}", columns, rows,
-               "Error: of the time of impact beyond its certified bracket, as a share of the step; positive is late." if sweep else "")
+    rows = [
+        (r.method, r.outcome, *((_digits(r.time), _digits(r.error)) if sweep else ()), r.detail or "")
+        for r in verdicts(found).itertuples()
+    ]
+    print_grid(
+        f"{found.case.id}: certified {t.label}{bracket}, gap {t.gap:.3g}{'. ' + t.reason if t.reason else ''}",
+        columns,
+        rows,
+        "Error: of the time of impact beyond its certified bracket, as a share of the step; positive is late." if sweep else "",
+    )
     if save_to:
         save(found, save_to)
         say(f"The case is in {save_to}; show it anywhere with: ofg-bench explain --file {save_to}")
@@ -152,8 +201,15 @@ def verdicts(explained: Explained) -> pd.DataFrame:
     """method, outcome, time, error, detail of every method that answers the case's question, wrong answers first."""
     found = metrics.judge(explained.said, pd.DataFrame([explained.row]))
     found = found[~found.detail.fillna("").str.startswith("does not answer")]
-    order = {name: i for i, name in enumerate(("miss", "false alarm", "error", "timeout", "conservative", "right", "no label", "unsupported"))}
-    return found.assign(order=found.outcome.map(order)).sort_values("order", kind="stable")[["method", "outcome", "time", "error", "detail"]].reset_index(drop=True)
+    order = {
+        name: i
+        for i, name in enumerate(("miss", "false alarm", "error", "timeout", "conservative", "right", "no label", "unsupported"))
+    }
+    return (
+        found.assign(order=found.outcome.map(order))
+        .sort_values("order", kind="stable")[["method", "outcome", "time", "error", "detail"]]
+        .reset_index(drop=True)
+    )
 
 
 def _body(row: dict) -> Body:
@@ -175,8 +231,16 @@ def _tags(row: dict) -> dict:
 def _truth(row: dict) -> Truth:
     t_lo, t_hi, gap = (math.nan if row.get(key) is None else float(row[key]) for key in ("t_lo", "t_hi", "gap"))
     certificate = row.get("certificate", "{}")
-    return Truth(row["label"], t_lo, t_hi, row.get("start", "uncertain"), row.get("end", "uncertain"), gap, row.get("reason", ""),
-                 json.loads(certificate) if isinstance(certificate, str) else certificate)
+    return Truth(
+        row["label"],
+        t_lo,
+        t_hi,
+        row.get("start", "uncertain"),
+        row.get("end", "uncertain"),
+        gap,
+        row.get("reason", ""),
+        json.loads(certificate) if isinstance(certificate, str) else certificate,
+    )
 
 
 def _certify(query: Query) -> Truth:

@@ -8,7 +8,20 @@ from pathlib import Path
 from .payload import encode, pack
 
 HERE = Path(__file__).parent
-SCRIPTS = ("data.js", "text.js", "filters.js", "board.js", "plot.js", "pivot.js", "tables.js", "scene.js", "case.js", "gallery.js", "run.js", "main.js")
+SCRIPTS = (
+    "data.js",
+    "text.js",
+    "filters.js",
+    "board.js",
+    "plot.js",
+    "pivot.js",
+    "tables.js",
+    "scene.js",
+    "case.js",
+    "gallery.js",
+    "run.js",
+    "main.js",
+)
 LIBRARIES = ("plotly-basic.min.js", "three.min.js")
 
 
@@ -22,6 +35,11 @@ def page(payload: dict, title: str) -> str:
     stores = "\n".join(f'<script type="application/octet-stream" id="{name}">{text}</script>' for name, text in blocks.items())
     script = "\n".join((HERE / "page" / name).read_text() for name in SCRIPTS)
     made = (HERE / "page" / "page.html").read_text()
-    for mark, text in (("TITLE", html.escape(title)), ("STYLE", (HERE / "page" / "style.css").read_text()), ("STORES", stores), ("SCRIPT", script)):
+    for mark, text in (
+        ("TITLE", html.escape(title)),
+        ("STYLE", (HERE / "page" / "style.css").read_text()),
+        ("STORES", stores),
+        ("SCRIPT", script),
+    ):
         made = made.replace(f"@@{mark}@@", text)
     return made

@@ -23,12 +23,25 @@ from ..timing import FLOOR, LOST, PROBE, SIZES, situation_of, size_of
 from . import selection
 from .certificate import drawable
 
-CODES = {"right": "r", "miss": "m", "false alarm": "f", "conservative": "c", "no label": "n", "unsupported": "u", "error": "e", "timeout": "t"}
+CODES = {
+    "right": "r",
+    "miss": "m",
+    "false alarm": "f",
+    "conservative": "c",
+    "no label": "n",
+    "unsupported": "u",
+    "error": "e",
+    "timeout": "t",
+}
 SHOWN = 24  # cases of each kind that the gallery can draw for each method
 BYTES = 8_000_000  # of bodies, before compression: what a page may weigh
 CASES = 3_000  # that a page can draw: what its making may take
 EXACT = 5_000  # vertices up to which a body is never rounded
-NATIVE = {"apart": ("overlap", "apart"), "overlapping": ("overlap", "deep"), "flight": ("translation", "hit")}  # of experiments/native.py: ours
+NATIVE = {
+    "apart": ("overlap", "apart"),
+    "overlapping": ("overlap", "deep"),
+    "flight": ("translation", "hit"),
+}  # of experiments/native.py: ours
 SELECTED = 2_000  # faces up to which a selection is drawn; of k = inf on a large mesh the page only says how many
 OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
@@ -37,8 +50,14 @@ def of_run(store: Store, made_tables=None) -> dict:
     """Everything the page of a run shows; see page/data.js for its reading."""
     rows, found = store.read("cases.parquet"), metrics.outcomes(store)
     made = {
-        "mode": "run", "run": _run(store), "codes": {code: name for name, code in CODES.items()}, "cases": _cases(rows), "sizes": [name for _, name in SIZES],
-        "bands": tables.gap_bands(pd.Series([], dtype=float))[1], "scenarios": _scenarios(rows), **_observations(found, rows),
+        "mode": "run",
+        "run": _run(store),
+        "codes": {code: name for name, code in CODES.items()},
+        "cases": _cases(rows),
+        "sizes": [name for _, name in SIZES],
+        "bands": tables.gap_bands(pd.Series([], dtype=float))[1],
+        "scenarios": _scenarios(rows),
+        **_observations(found, rows),
     }
     made["methods"] = [_method(label, made["run"]["versions"]) for label in made["labels"]]
     made["lanes"] = {**(_lanes(store, rows) if store.has("timings.parquet") else {}), **_native(store, set(made["labels"]))}
@@ -50,9 +69,18 @@ def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict) 
     """The same for one case: `row` is its row of cases.parquet, `observations` what methods said about it."""
     rows = pd.DataFrame([row])
     found = metrics.judge(observations, rows)
-    made = {"mode": "case", "run": {"versions": versions}, "codes": {code: name for name, code in CODES.items()}, "cases": _cases(rows),
-            "sizes": [name for _, name in SIZES], "bands": tables.gap_bands(pd.Series([], dtype=float))[1], "scenarios": _scenarios(rows),
-            "lanes": {}, "tables": [], **_observations(found, rows)}
+    made = {
+        "mode": "case",
+        "run": {"versions": versions},
+        "codes": {code: name for name, code in CODES.items()},
+        "cases": _cases(rows),
+        "sizes": [name for _, name in SIZES],
+        "bands": tables.gap_bands(pd.Series([], dtype=float))[1],
+        "scenarios": _scenarios(rows),
+        "lanes": {},
+        "tables": [],
+        **_observations(found, rows),
+    }
     made["methods"] = [_method(label, versions) for label in made["labels"]]
     shapes = Shapes(float("inf"), anew=True)
     shapes.add(0, case, truth, [label for label in made["labels"] if label.split()[0] == "ofg"], len(made["labels"]))
@@ -71,17 +99,50 @@ def pack(content: bytes) -> str:
 def _run(store: Store) -> dict:
     manifest = json.loads(store.path("manifest.json").read_text())
     noise = metrics.noise(store) if store.has("timings.parquet") else math.nan
-    return {"name": store.folder.resolve().name, "title": store.config.title or store.folder.resolve().name, "about": store.config.about, "noise": noise, "config": json.loads(store.config.model_dump_json()), **manifest}
+    return {
+        "name": store.folder.resolve().name,
+        "title": store.config.title or store.folder.resolve().name,
+        "about": store.config.about,
+        "noise": noise,
+        "config": json.loads(store.config.model_dump_json()),
+        **manifest,
+    }
 
 
 def _cases(rows: pd.DataFrame) -> dict:
     relative = rows.gap / rows["size"]
     situation = situation_of(rows).where(rows.label != "uncertain", "uncertain")
-    columns = ["case", "scenario", "level", "question", "label", "t_lo", "t_hi", "start", "end", "gap", "reason", "size", "faces", "displacement", "axis",
-               "angle", "quaternion_a", "position_a", "quaternion_b", "position_b", "attempt"]
+    columns = [
+        "case",
+        "scenario",
+        "level",
+        "question",
+        "label",
+        "t_lo",
+        "t_hi",
+        "start",
+        "end",
+        "gap",
+        "reason",
+        "size",
+        "faces",
+        "displacement",
+        "axis",
+        "angle",
+        "quaternion_a",
+        "position_a",
+        "quaternion_b",
+        "position_b",
+        "attempt",
+    ]
     made = {name: rows[name].tolist() for name in columns}
-    made.update(tags=[json.loads(t) for t in rows.tags], situation=situation.tolist(), sizes=size_of(rows.faces).tolist(),
-                band=tables.gap_bands(relative)[0].where(relative.notna(), None).tolist(), relative=relative.tolist())
+    made.update(
+        tags=[json.loads(t) for t in rows.tags],
+        situation=situation.tolist(),
+        sizes=size_of(rows.faces).tolist(),
+        band=tables.gap_bands(relative)[0].where(relative.notna(), None).tolist(),
+        relative=relative.tolist(),
+    )
     return made
 
 
@@ -94,14 +155,35 @@ def _method(label: str, versions: dict) -> dict:
     name, *_ = label.split()
     cls = registry.methods().get(name)
     if cls is None:
-        return {"label": label, "name": name, "curve": label, "engine": name, "configuration": "", "solid": None, "margin": 0, "guarantee": "its file is not here", "answers": [], "bodies": []}
+        return {
+            "label": label,
+            "name": name,
+            "curve": label,
+            "engine": name,
+            "configuration": "",
+            "solid": None,
+            "margin": 0,
+            "guarantee": "its file is not here",
+            "answers": [],
+            "bodies": [],
+        }
     try:
         (method,) = registry.make(label)
     except (ValueError, ImportError):
         method = cls
-    return {"label": label, "name": name, "curve": _curve(label, cls), "engine": cls.engine, "version": versions.get(cls.engine), "configuration": method.configuration, "solid": method.solid,
-            "margin": float(method.margin), "guarantee": cls.guarantee, "answers": [q for q in ofg.QUESTIONS if q in cls.questions],
-            "bodies": sorted(cls.bodies)}
+    return {
+        "label": label,
+        "name": name,
+        "curve": _curve(label, cls),
+        "engine": cls.engine,
+        "version": versions.get(cls.engine),
+        "configuration": method.configuration,
+        "solid": method.solid,
+        "margin": float(method.margin),
+        "guarantee": cls.guarantee,
+        "answers": [q for q in ofg.QUESTIONS if q in cls.questions],
+        "bodies": sorted(cls.bodies),
+    }
 
 
 def _curve(label: str, cls) -> str:
@@ -132,7 +214,8 @@ def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
 
 
 def _lanes(store: Store, rows: pd.DataFrame) -> dict:
-    """lane -> method -> {cases, ns: medians over rounds; floors: [question, faces, situation, ns]}; "python" where no lane is named."""
+    """lane -> method -> {cases, ns: medians over rounds; floors: [question, faces, situation, ns]}; "python" where no lane is
+    named."""
     place = {case: i for i, case in enumerate(rows.case)}
     times = store.read("timings.parquet")
     times = times[~times.method.isin([PROBE, LOST])]
@@ -141,14 +224,19 @@ def _lanes(store: Store, rows: pd.DataFrame) -> dict:
     for (lane, label), part in times.groupby(["lane", "method"], sort=False):
         floor, real = part[part.case == FLOOR], part[part.case != FLOOR]
         lanes.setdefault(lane, {})[label] = {
-            "cases": [place[c] for c in real.case], "ns": real.ns.tolist(), "build": real.build_ns.tolist(),
-            "floors": floor[["question", "faces", "situation", "ns"]].values.tolist()}
+            "cases": [place[c] for c in real.case],
+            "ns": real.ns.tolist(),
+            "build": real.build_ns.tolist(),
+            "floors": floor[["question", "faces", "situation", "ns"]].values.tolist(),
+        }
     return lanes
 
 
 def _native(store: Store, labels: set[str]) -> dict:
-    """The native lane of a run that has a native.csv (python -m experiments.native --out RUN): it times pairs of its own of given sizes, so no case
-    of the run stands behind it."""
+    """The native lane of a run that has a native.csv (python -m experiments.native --out RUN).
+
+    It times pairs of its own of given sizes, so no case of the run stands behind it.
+    """
     if not store.has("native.csv"):
         return {}
     lane: dict[str, dict] = {}
@@ -162,12 +250,20 @@ def _native(store: Store, labels: set[str]) -> dict:
 def _table(table, found: pd.DataFrame) -> dict:
     from .cells import links
 
-    return {"name": table.name, "title": table.title, "caption": table.caption, "columns": [str(c) for c in table.text.columns],
-            "own": table.choice is not None, "rows": table.text.astype(str).values.tolist(), "links": links(table, found)}
+    return {
+        "name": table.name,
+        "title": table.title,
+        "caption": table.caption,
+        "columns": [str(c) for c in table.text.columns],
+        "own": table.choice is not None,
+        "rows": table.text.astype(str).values.tolist(),
+        "links": links(table, found),
+    }
 
 
 def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
-    """Bodies, certificates and OFG's selections of the cases that can be drawn: first those of the gallery, then the rest, while there is room."""
+    """Bodies, certificates and OFG's selections of the cases that can be drawn: first those of the gallery, then the rest,
+    while there is room."""
     wanted = gallery(found)
     order = list(dict.fromkeys([*wanted, *rows.case]))
     place = {case: i for i, case in enumerate(rows.case)}
@@ -183,8 +279,10 @@ def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
 
 
 def gallery(found: pd.DataFrame) -> dict[str, list[str]]:
-    """case -> methods that it is shown for: of each method up to SHOWN misses, false alarms and late times, spread over scenarios and levels;
-    of late times the latest."""
+    """case -> methods that it is shown for.
+
+    Of each method up to SHOWN misses, false alarms and late times, spread over scenarios and levels; of late times the latest.
+    """
     wanted: dict[str, list[str]] = {}
     for label, part in found.groupby("method", sort=False):
         late = part[part.error > 0].sort_values("error", ascending=False)
@@ -195,14 +293,17 @@ def gallery(found: pd.DataFrame) -> dict[str, list[str]]:
 
 
 def _spread(part: pd.DataFrame) -> pd.DataFrame:
-    return part.assign(turn=part.groupby(["scenario", "level"]).cumcount()).sort_values(["turn", "scenario", "level"], kind="stable")
+    return part.assign(turn=part.groupby(["scenario", "level"]).cumcount()).sort_values(
+        ["turn", "scenario", "level"], kind="stable"
+    )
 
 
 class Shapes:
     """Collects bodies (each once), certificates and selections until `room` bytes are full."""
 
     def __init__(self, room: float, anew: bool = False):
-        """anew: meshes may be decomposed, which can take a minute each; else OFG's pieces are shown where they are kept from the run."""
+        """anew: meshes may be decomposed, which can take a minute each; else OFG's pieces are shown where they are kept from
+        the run."""
         self.room, self.anew, self.bytes = room, anew, bytearray()
         self.bodies, self.drawn, self.proofs, self.ofg = [], {}, {}, {}
         self._known: dict[str, int] = {}
@@ -224,7 +325,8 @@ class Shapes:
         return {"bodies": self.bodies, "drawn": self.drawn, "proofs": self.proofs, "ofg": self.ofg, "bytes": bytes(self.bytes)}
 
     def _trace(self, query: Query, label: str, truth) -> dict | None:
-        """What OFG looked at; None where the method refuses the query or its pieces are not kept. "bodies" where it saw pieces of a mesh."""
+        """What OFG looked at; None where the method refuses the query or its pieces are not kept. "bodies" where it saw pieces
+        of a mesh."""
         (method,) = registry.make(label)
         options = {**method._options()}
         if options.get("concave") != "undivided":
@@ -258,8 +360,13 @@ class Shapes:
         exact = np.array_equal(vertices, vertices.astype(np.float32))
         kind = "f4" if exact or len(vertices) > EXACT else "f8"
         index = "u2" if len(vertices) < 65536 else "u4"
-        entry: dict[str, Any] = {"name": body.name, "kind": body.kind, "v": [self._put(vertices.astype("<" + kind)), kind, len(vertices)],
-                                 "f": [self._put(faces.astype("<" + index)), index, len(faces)], "rounded": kind == "f4" and not exact}
+        entry: dict[str, Any] = {
+            "name": body.name,
+            "kind": body.kind,
+            "v": [self._put(vertices.astype("<" + kind)), kind, len(vertices)],
+            "f": [self._put(faces.astype("<" + index)), index, len(faces)],
+            "rounded": kind == "f4" and not exact,
+        }
         if body.kind == "union":
             entry["pieces"] = [[len(p.vertices), len(p.faces)] for p in body.pieces]
         self.bodies.append(entry)

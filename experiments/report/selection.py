@@ -14,7 +14,8 @@ import trimesh
 import ofg
 from ofg import Body, Query
 
-AFTER = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 0.1)  # shares of the step after the impact at which faces are looked for that meet
+# shares of the step after the impact at which faces are looked for that meet
+AFTER = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 0.1)
 
 
 @dataclass(frozen=True)
@@ -39,20 +40,29 @@ class Mesh:
 
 
 def trace(query: Query, options: dict, impact: float = nan) -> dict:
-    """What OFG with these options (those of ofg.ask; bodies in pieces already if it is to see pieces) looks at, as JSON-able values.
+    """What OFG with these options (those of ofg.ask; bodies in pieces already if it is to see pieces) looks at; JSON-able values.
 
-    impact: the certified time of impact of a hit, NaN without one. Of several parts of the step (repair "arcs") the one in which it lies.
+    impact: the certified time of impact of a hit, NaN without one. Of several parts of the step (repair "arcs") the one that it
+    lies in is shown.
 
-    answer: hit, time, found, faces that met ([a, b] or None). stopped: "" or the step that ended it before a face was tested.
-    pieces: those asked. window: [from, to], parts: of how many. a, b: selected faces, nearest first (indices into the faces of the whole body).
-    vertices_b: virtual edges of B's vertices too. selections: at how many times. should: faces that do meet at `time`, and their place in the order of all faces by
-    distance ([a, b], None where they belong to a piece that was not asked), or None where no surfaces meet.
+    hit, time, found: the answer. met: the faces that met, [a, b] or None. stopped: "" or the step that ended it before a face
+    was tested. pieces: those asked. window: [from, to], one of `parts`. a, b: selected faces, nearest first. selections: at how
+    many times they were made. vertices_b: virtual edges of B's vertices too. should: faces that do meet at `time`, and their
+    places in the order of all faces by distance (None where they belong to a piece that was not asked); None where no surfaces
+    meet. All faces are indices into those of the whole body.
     """
     answer = ofg.ask(query, **options)
     chosen = _Options(**options)
     ma, mb = _pieces(query, chosen, answer)
-    made = {"hit": answer.hit, "time": None if np.isnan(answer.time) else answer.time, "found": answer.found,
-            "pieces": [ma.piece, mb.piece], "vertices_b": chosen.both_vertices, "selections": chosen.selections, "stopped": ""}
+    made = {
+        "hit": answer.hit,
+        "time": None if np.isnan(answer.time) else answer.time,
+        "found": answer.found,
+        "pieces": [ma.piece, mb.piece],
+        "vertices_b": chosen.both_vertices,
+        "selections": chosen.selections,
+        "stopped": "",
+    }
     made["met"] = [answer.faces[0] + ma.first, answer.faces[1] + mb.first] if answer.hit and min(answer.faces) >= 0 else None
     moving = query.question != "overlap"
     parts = _parts(query, ma, chosen) if moving else 1
@@ -88,7 +98,11 @@ class _Options:
     def __init__(self, k=8, repairs="none", **own):
         o = {**ofg.repair_options(repairs), **own}
         self.k, self.nearest, self.adaptive_k = k, o.get("selection", "centroid"), o.get("adaptive_k", False)
-        self.selections, self.arc_tolerance, self.both_vertices = o.get("selections", 1), o.get("arc_tolerance", 0.0), o.get("both_vertices", False)
+        self.selections, self.arc_tolerance, self.both_vertices = (
+            o.get("selections", 1),
+            o.get("arc_tolerance", 0.0),
+            o.get("both_vertices", False),
+        )
         self.broad, self.concave = o.get("broad", "swept"), o.get("concave", "object")
 
 
@@ -154,7 +168,11 @@ def _nearest(mesh: Mesh, points, chosen: _Options, reach: float) -> np.ndarray:
         take = np.lexsort((np.arange(len(d)), d))[: min(chosen.k, len(d))]
         if chosen.adaptive_k:
             corners = mesh.corners
-            own = np.linalg.norm(corners - corners.mean(axis=1, keepdims=True), axis=2).max(axis=1) if chosen.nearest == "centroid" else 0.0
+            own = (
+                np.linalg.norm(corners - corners.mean(axis=1, keepdims=True), axis=2).max(axis=1)
+                if chosen.nearest == "centroid"
+                else 0.0
+            )
             take = np.union1d(take, np.flatnonzero(d <= (reach + own) ** 2))
         fresh = take[np.isinf(least[take])]
         least[fresh] = d[fresh]

@@ -14,7 +14,8 @@ async function readData() {
   D.n = D.cases.case.length;
   D.place = new Map(D.cases.case.map((c, i) => [c, i]));
   D.method = new Map(D.labels.map((label, m) => [label, m]));
-  for (const name of ["time", "error", "detail"]) D[name] = D[name].map(([at, values]) => new Map(at.map((i, j) => [i, values[j]])));
+  for (const name of ["time", "error", "detail"])
+    D[name] = D[name].map(([at, values]) => new Map(at.map((i, j) => [i, values[j]])));
   D.canTunnel = Array.from({ length: D.n }, (_, i) => {
     const c = D.cases;
     return c.question[i] !== "overlap" && c.label[i] === "hit" && c.start[i] === "clear" && c.end[i] === "clear";
@@ -23,13 +24,16 @@ async function readData() {
 
 const libraries = {};
 function library(name) {
-  libraries[name] ||= inflate(name).then((content) => new Promise((done, fail) => {
-    const script = document.createElement("script");
-    script.src = URL.createObjectURL(new Blob([content], { type: "text/javascript" }));
-    script.onload = done;
-    script.onerror = () => fail(new Error(`${name} could not be started from inside the page`));
-    document.head.append(script);
-  }));
+  libraries[name] ||= inflate(name).then(
+    (content) =>
+      new Promise((done, fail) => {
+        const script = document.createElement("script");
+        script.src = URL.createObjectURL(new Blob([content], { type: "text/javascript" }));
+        script.onload = done;
+        script.onerror = () => fail(new Error(`${name} could not be started from inside the page`));
+        document.head.append(script);
+      }),
+  );
   return libraries[name];
 }
 
@@ -41,8 +45,10 @@ async function bodyBytes() {
 const bodies = new Map();
 async function body(index) {
   if (!bodies.has(index)) {
-    const bytes = await bodyBytes(), b = D.bodies[index];
-    const [v, kind, nv] = b.v, [f, wide, nf] = b.f;
+    const bytes = await bodyBytes(),
+      b = D.bodies[index];
+    const [v, kind, nv] = b.v,
+      [f, wide, nf] = b.f;
     const vertices = Float64Array.from(new (kind === "f4" ? Float32Array : Float64Array)(bytes, v, 3 * nv));
     const faces = new (wide === "u2" ? Uint16Array : Uint32Array)(bytes, f, 3 * nf);
     bodies.set(index, { ...b, vertices, faces });
@@ -51,7 +57,9 @@ async function body(index) {
 }
 
 // What a letter counts as.
-const JUDGED = new Set(["r", "m", "f", "c"]), ANSWERED = new Set(["r", "m", "f", "c", "n"]), LOST = new Set(["u", "e", "t"]);
+const JUDGED = new Set(["r", "m", "f", "c"]),
+  ANSWERED = new Set(["r", "m", "f", "c", "n"]),
+  LOST = new Set(["u", "e", "t"]);
 const KINDS = {
   all: () => true,
   wrong: (x) => x === "m" || x === "f",
@@ -67,13 +75,38 @@ const KINDS = {
   late: (x, i, m) => D.error[m].get(i) > 0,
   early: (x, i, m) => D.error[m].get(i) < 0,
   clocked: (x, i, m) => clocked(m).has(i),
-  miss: (x) => x === "m", "false alarm": (x) => x === "f", conservative: (x) => x === "c", right: (x) => x === "r", "no label": (x) => x === "n",
-  unsupported: (x) => x === "u", error: (x) => x === "e", timeout: (x) => x === "t",
+  miss: (x) => x === "m",
+  "false alarm": (x) => x === "f",
+  conservative: (x) => x === "c",
+  right: (x) => x === "r",
+  "no label": (x) => x === "n",
+  unsupported: (x) => x === "u",
+  error: (x) => x === "e",
+  timeout: (x) => x === "t",
 };
 const KIND_WORDS = {
-  all: "all cases", asked: "asked", wrong: "wrong answers", judged: "judged", "judged hit": "judged hits", "judged clear": "judged clears", answered: "answered", failed: "crashed or hung",
-  tunnelled: "tunnelled", timed: "times of impact", late: "late times", early: "early times", clocked: "timed by the clock", miss: "misses", "can tunnel": "can tunnel",
-  "false alarm": "false alarms", conservative: "hits within the margin", right: "right", "no label": "no certified label", unsupported: "not supported", error: "errors", timeout: "timeouts",
+  all: "all cases",
+  asked: "asked",
+  wrong: "wrong answers",
+  judged: "judged",
+  "judged hit": "judged hits",
+  "judged clear": "judged clears",
+  answered: "answered",
+  failed: "crashed or hung",
+  tunnelled: "tunnelled",
+  timed: "times of impact",
+  late: "late times",
+  early: "early times",
+  clocked: "timed by the clock",
+  miss: "misses",
+  "can tunnel": "can tunnel",
+  "false alarm": "false alarms",
+  conservative: "hits within the margin",
+  right: "right",
+  "no label": "no certified label",
+  unsupported: "not supported",
+  error: "errors",
+  timeout: "timeouts",
 };
 
 const clockedBy = new Map();
@@ -88,9 +121,18 @@ function clocked(m) {
 
 // Cases (indices) behind a link: the same conditions as `select` in cells.py.
 function casesOf(link, among) {
-  const c = D.cases, m = link.method === undefined ? -1 : D.method.get(link.method), test = KINDS[link.kind || "all"];
-  const wanted = [["question", "question"], ["scenario", "scenario"], ["level", "level"], ["band", "band"], ["sizes", "sizes"], ["situation", "situation"], ["label", "label"]]
-    .filter(([key]) => link[key] !== undefined && link[key] !== "");
+  const c = D.cases,
+    m = link.method === undefined ? -1 : D.method.get(link.method),
+    test = KINDS[link.kind || "all"];
+  const wanted = [
+    ["question", "question"],
+    ["scenario", "scenario"],
+    ["level", "level"],
+    ["band", "band"],
+    ["sizes", "sizes"],
+    ["situation", "situation"],
+    ["label", "label"],
+  ].filter(([key]) => link[key] !== undefined && link[key] !== "");
   const found = [];
   for (let j = 0, n = among ? among.length : D.n; j < n; j++) {
     const i = among ? among[j] : j;
@@ -111,15 +153,36 @@ function casesOf(link, among) {
 // 95 % Wilson score interval of a rate.
 function wilson(count, total) {
   if (!total) return [NaN, NaN];
-  const z = 1.959963984540054, p = count / total, d = 1 + z * z / total;
-  const middle = (p + z * z / (2 * total)) / d, half = z / d * Math.sqrt(p * (1 - p) / total + z * z / (4 * total * total));
+  const z = 1.959963984540054,
+    p = count / total,
+    d = 1 + (z * z) / total;
+  const middle = (p + (z * z) / (2 * total)) / d,
+    half = (z / d) * Math.sqrt((p * (1 - p)) / total + (z * z) / (4 * total * total));
   return [count ? Math.max(0, middle - half) : 0, count < total ? Math.min(1, middle + half) : 1];
 }
 
 // Counts of one method over cases.
 function rates(m, among) {
-  const r = { asked: 0, answered: 0, unsupported: 0, failed: 0, hits: 0, misses: 0, clears: 0, alarms: 0, conservative: 0, canTunnel: 0, tunnelled: 0, late: 0, timed: 0, worstLate: 0, worstEarly: 0 };
-  const letters = D.outcome[m], errors = D.error[m], list = [];
+  const r = {
+    asked: 0,
+    answered: 0,
+    unsupported: 0,
+    failed: 0,
+    hits: 0,
+    misses: 0,
+    clears: 0,
+    alarms: 0,
+    conservative: 0,
+    canTunnel: 0,
+    tunnelled: 0,
+    late: 0,
+    timed: 0,
+    worstLate: 0,
+    worstEarly: 0,
+  };
+  const letters = D.outcome[m],
+    errors = D.error[m],
+    list = [];
   for (const i of among) {
     const x = letters[i];
     if (x === ".") continue;
@@ -129,24 +192,30 @@ function rates(m, among) {
     else {
       r.answered++;
       if (JUDGED.has(x)) D.cases.label[i] === "hit" ? r.hits++ : r.clears++;
-      if (x === "m") r.misses++; else if (x === "f") r.alarms++; else if (x === "c") r.conservative++;
-      if (D.canTunnel[i]) { r.canTunnel++; if (x === "m") r.tunnelled++; }
+      if (x === "m") r.misses++;
+      else if (x === "f") r.alarms++;
+      else if (x === "c") r.conservative++;
+      if (D.canTunnel[i]) {
+        r.canTunnel++;
+        if (x === "m") r.tunnelled++;
+      }
     }
     const e = errors.get(i);
     if (e !== undefined) {
       r.timed++;
       list.push(Math.abs(e));
       if (e > 0) r.late++;
-      r.worstLate = Math.max(r.worstLate, e), r.worstEarly = Math.min(r.worstEarly, e);
+      ((r.worstLate = Math.max(r.worstLate, e)), (r.worstEarly = Math.min(r.worstEarly, e)));
     }
   }
-  r.wrong = r.misses + r.alarms, r.judged = r.hits + r.clears, r.medianError = median(list);
+  ((r.wrong = r.misses + r.alarms), (r.judged = r.hits + r.clears), (r.medianError = median(list)));
   return r;
 }
 
 function median(values) {
   if (!values.length) return NaN;
-  const s = Float64Array.from(values).sort(), h = s.length >> 1;
+  const s = Float64Array.from(values).sort(),
+    h = s.length >> 1;
   return s.length % 2 ? s[h] : (s[h - 1] + s[h]) / 2;
 }
 
@@ -154,11 +223,27 @@ function median(values) {
 function cost(m, lane, among) {
   const timed = D.lanes[lane]?.[D.labels[m]];
   if (!timed) return null;
-  if (timed.bins) { // the native lane: pairs of its own, already net
-    const kept = timed.bins.filter(([q, s, f]) => q === F.question && (!F.sizes || f === F.sizes) && (!F.situation || s === F.situation)).map((b) => b[3]);
-    return kept.length ? { n: kept.length, bins: true, gross: median(kept), net: median(kept), low: Math.min(...kept), high: Math.max(...kept), floor: 0 } : null;
+  if (timed.bins) {
+    // the native lane: pairs of its own, already net
+    const kept = timed.bins
+      .filter(([q, s, f]) => q === F.question && (!F.sizes || f === F.sizes) && (!F.situation || s === F.situation))
+      .map((b) => b[3]);
+    return kept.length
+      ? {
+          n: kept.length,
+          bins: true,
+          gross: median(kept),
+          net: median(kept),
+          low: Math.min(...kept),
+          high: Math.max(...kept),
+          floor: 0,
+        }
+      : null;
   }
-  const c = D.cases, keep = new Set(among), ns = [], bins = new Set();
+  const c = D.cases,
+    keep = new Set(among),
+    ns = [],
+    bins = new Set();
   timed.cases.forEach((i, j) => {
     if (!keep.has(i)) return;
     ns.push(timed.ns[j]);
@@ -166,8 +251,12 @@ function cost(m, lane, among) {
   });
   if (!ns.length) return null;
   const floors = timed.floors.filter(([q, f, s]) => bins.has(`${q}|${f}|${s}`)).map((x) => x[3]);
-  const s = ns.slice().sort((a, b) => a - b), n = s.length, half = 0.98 * Math.sqrt(n);
-  const low = s[Math.max(0, Math.floor(n / 2 - half))], high = s[Math.min(n - 1, Math.ceil(n / 2 + half) - 1)];
-  const gross = median(ns), floor = median(floors);
+  const s = ns.slice().sort((a, b) => a - b),
+    n = s.length,
+    half = 0.98 * Math.sqrt(n);
+  const low = s[Math.max(0, Math.floor(n / 2 - half))],
+    high = s[Math.min(n - 1, Math.ceil(n / 2 + half) - 1)];
+  const gross = median(ns),
+    floor = median(floors);
   return { n, gross, low, high, floor, net: Math.max(gross - (floor || 0), 0) };
 }

@@ -1,78 +1,198 @@
 // Accuracy against speed: one curve per method over its parameter, colour by engine, symbol by method; below it the same points as the leaderboard.
 const MEASURES = {
-  "wrong answers": { of: (r) => [r.wrong, r.judged], kind: "wrong" }, misses: { of: (r) => [r.misses, r.hits], kind: "miss" },
-  "false alarms": { of: (r) => [r.alarms, r.clears], kind: "false alarm" }, tunnelled: { of: (r) => [r.tunnelled, r.canTunnel], kind: "tunnelled" },
+  "wrong answers": { of: (r) => [r.wrong, r.judged], kind: "wrong" },
+  misses: { of: (r) => [r.misses, r.hits], kind: "miss" },
+  "false alarms": { of: (r) => [r.alarms, r.clears], kind: "false alarm" },
+  tunnelled: { of: (r) => [r.tunnelled, r.canTunnel], kind: "tunnelled" },
 };
 const SYMBOLS = ["circle", "square", "diamond", "triangle-up", "triangle-down", "pentagon", "x", "star", "hexagon", "cross"];
 const GRAIN = 50; // ns: what the clock cannot tell from nothing is drawn there
-let measure = "wrong answers", clockSide = "net";
+let measure = "wrong answers",
+  clockSide = "net";
 
 const squash = (rate) => Math.asinh(100 * rate); // linear up to 1 %, then logarithmic: 0 can be drawn
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name.slice(4, -1)).trim();
 
 function drawPlotControls() {
   document.getElementById("plot-controls").replaceChildren(
-    select("Up", Object.keys(MEASURES).filter((k) => k !== "tunnelled" || F.question !== "overlap"), measure, (v) => { measure = v; drawPlot(); }),
-    select("Across", [["net", "net time (floor taken off)"], ["gross", "gross time"]], clockSide, (v) => { clockSide = v; drawPlot(); }));
+    select(
+      "Up",
+      Object.keys(MEASURES).filter((k) => k !== "tunnelled" || F.question !== "overlap"),
+      measure,
+      (v) => {
+        measure = v;
+        drawPlot();
+      },
+    ),
+    select(
+      "Across",
+      [
+        ["net", "net time (floor taken off)"],
+        ["gross", "gross time"],
+      ],
+      clockSide,
+      (v) => {
+        clockSide = v;
+        drawPlot();
+      },
+    ),
+  );
 }
 
 async function drawPlot() {
   if (F.question === "overlap" && measure === "tunnelled") measure = "wrong answers";
   drawPlotControls();
-  const box = document.getElementById("plot"), families = new Map();
+  const box = document.getElementById("plot"),
+    families = new Map();
   D.labels.forEach((label, m) => {
-    const r = rates(m, subset), [count, total] = MEASURES[measure].of(r), c = cost(m, F.lane, subset);
+    const r = rates(m, subset),
+      [count, total] = MEASURES[measure].of(r),
+      c = cost(m, F.lane, subset);
     if (!total || !c) return;
-    const name = D.methods[m].name, curve = D.methods[m].curve;
+    const name = D.methods[m].name,
+      curve = D.methods[m].curve;
     if (!families.has(curve)) families.set(curve, []);
-    families.get(curve).push({ name, m, label, count, total, rate: count / total, ci: wilson(count, total), us: Math.max(c[clockSide], GRAIN) / 1e3, cost: c, whole: r.answered === r.asked, r });
+    families
+      .get(curve)
+      .push({
+        name,
+        m,
+        label,
+        count,
+        total,
+        rate: count / total,
+        ci: wilson(count, total),
+        us: Math.max(c[clockSide], GRAIN) / 1e3,
+        cost: c,
+        whole: r.answered === r.asked,
+        r,
+      });
   });
   const words = document.getElementById("plot-words");
   if (!families.size) {
     box.hidden = true;
-    words.textContent = Object.keys(D.lanes).length ? "No method has both a rate and a time for these cases: fewer are timed than asked. Widen the filter." : "This run took no times.";
+    words.textContent = Object.keys(D.lanes).length
+      ? "No method has both a rate and a time for these cases: fewer are timed than asked. Widen the filter."
+      : "This run took no times.";
     return;
   }
   box.hidden = false;
   await library("plotly");
-  const ink = colour("var(--ink)"), grid = colour("var(--line)"), seen = {}, traces = [], all = [...families.values()].flat();
+  const ink = colour("var(--ink)"),
+    grid = colour("var(--line)"),
+    seen = {},
+    traces = [],
+    all = [...families.values()].flat();
   for (const points of families.values()) {
-    const name = points[0].name, engine = D.methods[points[0].m].engine, shade = colour(engineColour(engine)), known = (seen[engine] ||= []);
+    const name = points[0].name,
+      engine = D.methods[points[0].m].engine,
+      shade = colour(engineColour(engine)),
+      known = (seen[engine] ||= []);
     const first = !known.includes(name);
     if (first) known.push(name);
     const symbol = SYMBOLS[known.indexOf(name) % SYMBOLS.length];
     traces.push({
-      type: "scatter", mode: points.length > 1 ? "lines+markers+text" : "markers+text", name, legendgroup: name, showlegend: first, x: points.map((p) => p.us), y: points.map((p) => squash(p.rate)),
-      customdata: points.map((p) => p.label), line: { color: shade, width: 1.2 },
-      marker: { symbol: points.map((p) => symbol + (p.whole ? "" : "-open")), size: 9, color: shade, line: { color: shade, width: 1.5 } },
-      text: points.map((p) => p.label.split(" ").slice(1).join(" ")), cliponaxis: false, textposition: "top right", textfont: { size: 10, color: ink },
-      error_y: { type: "data", symmetric: false, array: points.map((p) => squash(p.ci[1]) - squash(p.rate)), arrayminus: points.map((p) => squash(p.rate) - squash(p.ci[0])), color: shade, thickness: 0.8, width: 2 },
-      hovertext: points.map((p) => `<b>${p.label}</b><br>${measure} ${p.count}/${p.total} (${interval(p.ci)})<br>net ${microseconds(p.cost.net)} µs, gross ${microseconds(p.cost.gross)} µs over ${p.cost.n} ${p.cost.bins ? "bins of pairs of the native lane" : "cases"}<br>${p.whole ? "answers all of these cases" : `answers ${p.r.answered} of ${p.r.asked}`}`),
+      type: "scatter",
+      mode: points.length > 1 ? "lines+markers+text" : "markers+text",
+      name,
+      legendgroup: name,
+      showlegend: first,
+      x: points.map((p) => p.us),
+      y: points.map((p) => squash(p.rate)),
+      customdata: points.map((p) => p.label),
+      line: { color: shade, width: 1.2 },
+      marker: {
+        symbol: points.map((p) => symbol + (p.whole ? "" : "-open")),
+        size: 9,
+        color: shade,
+        line: { color: shade, width: 1.5 },
+      },
+      text: points.map((p) => p.label.split(" ").slice(1).join(" ")),
+      cliponaxis: false,
+      textposition: "top right",
+      textfont: { size: 10, color: ink },
+      error_y: {
+        type: "data",
+        symmetric: false,
+        array: points.map((p) => squash(p.ci[1]) - squash(p.rate)),
+        arrayminus: points.map((p) => squash(p.rate) - squash(p.ci[0])),
+        color: shade,
+        thickness: 0.8,
+        width: 2,
+      },
+      hovertext: points.map(
+        (p) =>
+          `<b>${p.label}</b><br>${measure} ${p.count}/${p.total} (${interval(p.ci)})<br>net ${microseconds(p.cost.net)} µs, gross ${microseconds(p.cost.gross)} µs over ${p.cost.n} ${p.cost.bins ? "bins of pairs of the native lane" : "cases"}<br>${p.whole ? "answers all of these cases" : `answers ${p.r.answered} of ${p.r.asked}`}`,
+      ),
       hoverinfo: "text",
     });
   }
   const front = pareto(all.filter((p) => p.whole));
-  if (front.length) traces.unshift({ type: "scatter", mode: "lines", name: "Pareto front", x: front.map((p) => p.us), y: front.map((p) => squash(p.rate)), line: { color: grid, width: 7, shape: "hv" }, hoverinfo: "skip" });
-  const across10 = [-2, -1, 0, 1, 2, 3, 4, 5, 6].flatMap((e) => [1, 2, 5].map((d) => +(d * 10 ** e).toPrecision(1))).filter((x) => x >= GRAIN / 1e3);
+  if (front.length)
+    traces.unshift({
+      type: "scatter",
+      mode: "lines",
+      name: "Pareto front",
+      x: front.map((p) => p.us),
+      y: front.map((p) => squash(p.rate)),
+      line: { color: grid, width: 7, shape: "hv" },
+      hoverinfo: "skip",
+    });
+  const across10 = [-2, -1, 0, 1, 2, 3, 4, 5, 6]
+    .flatMap((e) => [1, 2, 5].map((d) => +(d * 10 ** e).toPrecision(1)))
+    .filter((x) => x >= GRAIN / 1e3);
   const ticks = [0, 0.003, 0.01, 0.03, 0.1, 0.3, 1];
   const layout = {
-    height: 560, margin: { l: 62, r: 12, t: 10, b: 52 }, paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", font: { family: "system-ui, sans-serif", color: ink, size: 12 },
-    xaxis: { type: "log", title: { text: `${clockSide} time per query, µs` }, gridcolor: grid, zeroline: false, tickvals: across10, ticktext: across10.map((x) => (x <= GRAIN / 1e3 ? `≤ ${x}` : String(x))) },
-    yaxis: { title: { text: `${measure}, % of certified cases` }, range: [squash(-0.0012), squash(1.3)], tickvals: ticks.map(squash), ticktext: ticks.map((t) => String(+(100 * t).toPrecision(2))), gridcolor: grid, zeroline: false },
-    legend: { font: { size: 11 }, itemsizing: "constant" }, hoverlabel: { align: "left" }, hovermode: "closest", modebar: { bgcolor: "rgba(0,0,0,0)", color: grid, activecolor: ink },
+    height: 560,
+    margin: { l: 62, r: 12, t: 10, b: 52 },
+    paper_bgcolor: "rgba(0,0,0,0)",
+    plot_bgcolor: "rgba(0,0,0,0)",
+    font: { family: "system-ui, sans-serif", color: ink, size: 12 },
+    xaxis: {
+      type: "log",
+      title: { text: `${clockSide} time per query, µs` },
+      gridcolor: grid,
+      zeroline: false,
+      tickvals: across10,
+      ticktext: across10.map((x) => (x <= GRAIN / 1e3 ? `≤ ${x}` : String(x))),
+    },
+    yaxis: {
+      title: { text: `${measure}, % of certified cases` },
+      range: [squash(-0.0012), squash(1.3)],
+      tickvals: ticks.map(squash),
+      ticktext: ticks.map((t) => String(+(100 * t).toPrecision(2))),
+      gridcolor: grid,
+      zeroline: false,
+    },
+    legend: { font: { size: 11 }, itemsizing: "constant" },
+    hoverlabel: { align: "left" },
+    hovermode: "closest",
+    modebar: { bgcolor: "rgba(0,0,0,0)", color: grid, activecolor: ink },
   };
-  await Plotly.react(box, traces, layout, { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["lasso2d", "select2d", "autoScale2d"], toImageButtonOptions: { format: "svg", filename: `accuracy-speed-${F.question}` } });
+  await Plotly.react(box, traces, layout, {
+    displaylogo: false,
+    responsive: true,
+    modeBarButtonsToRemove: ["lasso2d", "select2d", "autoScale2d"],
+    toImageButtonOptions: { format: "svg", filename: `accuracy-speed-${F.question}` },
+  });
   if (!box.dataset.listens) {
     box.dataset.listens = "yes";
-    box.on("plotly_click", ({ points: [p] }) => { if (p?.customdata) openCases({ ...here(), method: p.customdata, kind: MEASURES[measure].kind }); });
+    box.on("plotly_click", ({ points: [p] }) => {
+      if (p?.customdata) openCases({ ...here(), method: p.customdata, kind: MEASURES[measure].kind });
+    });
   }
-  words.textContent = (F.lane === "native" ? "Native times are of the libraries in one C++ loop, on pairs of their own of these sizes (experiments/native.py); rates are of this run's cases. " : "") + `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: answers only part of them, and is not on the Pareto front. At ≤ 0.05: no dearer than the method's own floor. Whiskers: 95 % Wilson intervals. A click on a point shows the cases behind it; the leaderboard above holds the same figures.`;
+  words.textContent =
+    (F.lane === "native"
+      ? "Native times are of the libraries in one C++ loop, on pairs of their own of these sizes (experiments/native.py); rates are of this run's cases. "
+      : "") +
+    `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: answers only part of them, and is not on the Pareto front. At ≤ 0.05: no dearer than the method's own floor. Whiskers: 95 % Wilson intervals. A click on a point shows the cases behind it; the leaderboard above holds the same figures.`;
 }
 
 const here = () => ({ question: F.question, sizes: F.sizes, situation: F.situation, band: F.band, scenario: F.scenario });
 
 function pareto(points) {
   const front = [];
-  for (const p of points.slice().sort((a, b) => a.us - b.us || a.rate - b.rate)) if (!front.length || p.rate < front.at(-1).rate) front.push(p);
+  for (const p of points.slice().sort((a, b) => a.us - b.us || a.rate - b.rate))
+    if (!front.length || p.rate < front.at(-1).rate) front.push(p);
   return front;
 }

@@ -18,7 +18,11 @@ const share = (count, total) => (total ? `${count}/${total}` : "–");
 function number(x, digits = 3) {
   if (x === null || x === undefined || Number.isNaN(x)) return "–";
   if (x === 0) return "0";
-  const a = Math.abs(x), text = a >= 1e-3 && a < 1e6 ? String(Number(x.toPrecision(digits))) : Number(x.toPrecision(digits)).toExponential().replace("e+", "e");
+  const a = Math.abs(x),
+    text =
+      a >= 1e-3 && a < 1e6
+        ? String(Number(x.toPrecision(digits)))
+        : Number(x.toPrecision(digits)).toExponential().replace("e+", "e");
   return text.replace(/-/g, "\u2212");
 }
 
@@ -26,7 +30,12 @@ const microseconds = (ns) => (ns < 1e4 ? (ns / 1e3).toFixed(2) : ns < 1e5 ? (ns 
 const plural = (n, one, many = one + "s") => `${n.toLocaleString("en")} ${n === 1 ? one : many}`;
 
 const MARKS = { r: "✓", m: "✗", f: "!", c: "≈", n: "?", u: "–", e: "⚠", t: "⏱", ".": "" };
-const badge = (letter) => el("span", { class: `badge ${{ r: "good", m: "bad", f: "bad", c: "mild" }[letter] || "none"}` }, `${MARKS[letter]} ${D.codes[letter] || ""}`);
+const badge = (letter) =>
+  el(
+    "span",
+    { class: `badge ${{ r: "good", m: "bad", f: "bad", c: "mild" }[letter] || "none"}` },
+    `${MARKS[letter]} ${D.codes[letter] || ""}`,
+  );
 
 function select(label, options, value, change) {
   const box = el("select", { onchange: () => change(box.value), "data-name": label });
@@ -39,24 +48,80 @@ function select(label, options, value, change) {
 
 // A table whose columns sort by a click on their heads. columns: {title, key(row) for sorting, cell(row) -> node or text, left, note}.
 function sortable(columns, rows, { start, descending = false, caption, id } = {}) {
-  let by = start, down = descending;
+  let by = start,
+    down = descending;
   const table = el("table", { id });
   const draw = () => {
-    const sorted = by === undefined ? rows : rows.map((r, i) => [r, i]).sort(([a, i], [b, j]) => {
-      const x = columns[by].key(a), y = columns[by].key(b);
-      const missing = (v) => v === null || v === undefined || Number.isNaN(v);
-      if (missing(x) || missing(y)) return missing(x) - missing(y) || i - j;
-      return (x < y ? -1 : x > y ? 1 : 0) * (down ? -1 : 1) || i - j;
-    }).map(([r]) => r);
+    const sorted =
+      by === undefined
+        ? rows
+        : rows
+            .map((r, i) => [r, i])
+            .sort(([a, i], [b, j]) => {
+              const x = columns[by].key(a),
+                y = columns[by].key(b);
+              const missing = (v) => v === null || v === undefined || Number.isNaN(v);
+              if (missing(x) || missing(y)) return missing(x) - missing(y) || i - j;
+              return (x < y ? -1 : x > y ? 1 : 0) * (down ? -1 : 1) || i - j;
+            })
+            .map(([r]) => r);
     table.replaceChildren(
       caption ? el("caption", {}, caption) : "",
-      el("thead", {}, el("tr", {}, columns.map((c, k) => el("th", { scope: "col", class: c.left ? "left" : "", title: c.note, "aria-sort": k === by ? (down ? "descending" : "ascending") : null },
-        c.key ? el("button", { type: "button", class: "sort", onclick: () => { down = by === k ? !down : Boolean(c.down); by = k; draw(); table.querySelectorAll("thead button")[[...columns.keys()].filter((q) => columns[q].key).indexOf(k)].focus(); } },
-          c.title, el("span", { class: "arrow", "aria-hidden": "true" }, k === by ? (down ? " ↓" : " ↑") : "")) : c.title)))),
-      el("tbody", {}, sorted.map((r) => el("tr", {}, columns.map((c, k) => {
-        const content = c.cell(r);
-        return k === 0 ? el("th", { scope: "row", class: "left" }, content) : el("td", { class: c.left ? "left" : "" }, content);
-      })))));
+      el(
+        "thead",
+        {},
+        el(
+          "tr",
+          {},
+          columns.map((c, k) =>
+            el(
+              "th",
+              {
+                scope: "col",
+                class: c.left ? "left" : "",
+                title: c.note,
+                "aria-sort": k === by ? (down ? "descending" : "ascending") : null,
+              },
+              c.key
+                ? el(
+                    "button",
+                    {
+                      type: "button",
+                      class: "sort",
+                      onclick: () => {
+                        down = by === k ? !down : Boolean(c.down);
+                        by = k;
+                        draw();
+                        table
+                          .querySelectorAll("thead button")
+                          [[...columns.keys()].filter((q) => columns[q].key).indexOf(k)].focus();
+                      },
+                    },
+                    c.title,
+                    el("span", { class: "arrow", "aria-hidden": "true" }, k === by ? (down ? " ↓" : " ↑") : ""),
+                  )
+                : c.title,
+            ),
+          ),
+        ),
+      ),
+      el(
+        "tbody",
+        {},
+        sorted.map((r) =>
+          el(
+            "tr",
+            {},
+            columns.map((c, k) => {
+              const content = c.cell(r);
+              return k === 0
+                ? el("th", { scope: "row", class: "left" }, content)
+                : el("td", { class: c.left ? "left" : "" }, content);
+            }),
+          ),
+        ),
+      ),
+    );
   };
   draw();
   return el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": caption || "table" }, table);

@@ -7,15 +7,43 @@ from experiments.config import RunConfig
 from experiments.store import Store
 
 CONFIG = RunConfig(
-    title="Report", about="A run for the tests of the report.", seed=11, timing={"cases": 2, "rounds": 3, "warmup": 1},
-    methods=["ofg k=4,8", "ofg k=8 repairs=all", "brute-force", "fcl-convex", "bullet", "fcl-convex-substeps n=1,4", "fcl-ccd-mesh"],
-    tables=[{"name": "by-level", "title": "Wrong by level.", "value": "wrong"}, {"name": "by-form", "title": "Misses by form.", "value": "misses", "columns": "form"},
-            {"name": "by-band", "title": "False alarms by band.", "value": "false alarms", "columns": "band", "question": "overlap"},
-            {"name": "walls", "title": "Tunnelled.", "value": "tunnelled", "columns": "scenario", "scenarios": ["thin_wall", "spin_side"]},
-            {"name": "by-faces", "title": "Net time.", "value": "net time", "columns": "faces"}, {"name": "answers", "title": "Answered.", "value": "answered", "columns": "question"},
-            {"name": "errors", "title": "Time error.", "value": "time error", "columns": "situation"}],
-    scenarios=[{"name": "feature_gap", "cases": 3, "levels": [1e-2, -1e-2]}, {"name": "contained", "cases": 3, "levels": [0.1]}, {"name": "deep", "cases": 3, "levels": [0.1]},
-               {"name": "hooked_ls", "cases": 2}, {"name": "thin_wall", "cases": 4, "levels": [10.0]}, {"name": "spin_side", "cases": 4, "levels": [1.0]}])
+    title="Report",
+    about="A run for the tests of the report.",
+    seed=11,
+    timing={"cases": 2, "rounds": 3, "warmup": 1},
+    methods=[
+        "ofg k=4,8",
+        "ofg k=8 repairs=all",
+        "brute-force",
+        "fcl-convex",
+        "bullet",
+        "fcl-convex-substeps n=1,4",
+        "fcl-ccd-mesh",
+    ],
+    tables=[
+        {"name": "by-level", "title": "Wrong by level.", "value": "wrong"},
+        {"name": "by-form", "title": "Misses by form.", "value": "misses", "columns": "form"},
+        {"name": "by-band", "title": "False alarms by band.", "value": "false alarms", "columns": "band", "question": "overlap"},
+        {
+            "name": "walls",
+            "title": "Tunnelled.",
+            "value": "tunnelled",
+            "columns": "scenario",
+            "scenarios": ["thin_wall", "spin_side"],
+        },
+        {"name": "by-faces", "title": "Net time.", "value": "net time", "columns": "faces"},
+        {"name": "answers", "title": "Answered.", "value": "answered", "columns": "question"},
+        {"name": "errors", "title": "Time error.", "value": "time error", "columns": "situation"},
+    ],
+    scenarios=[
+        {"name": "feature_gap", "cases": 3, "levels": [1e-2, -1e-2]},
+        {"name": "contained", "cases": 3, "levels": [0.1]},
+        {"name": "deep", "cases": 3, "levels": [0.1]},
+        {"name": "hooked_ls", "cases": 2},
+        {"name": "thin_wall", "cases": 4, "levels": [10.0]},
+        {"name": "spin_side", "cases": 4, "levels": [1.0]},
+    ],
+)
 
 
 @pytest.fixture(scope="session")

@@ -1,4 +1,5 @@
-"""The report in a real browser without a screen: it opens, counts as the run does, filters, leads to cases, and plays them, without an error."""
+"""The report in a real browser without a screen: it opens, counts as the run does, filters, leads to cases, and plays them,
+without an error."""
 
 import json
 import shutil
@@ -10,15 +11,23 @@ import pytest
 from experiments import metrics
 from experiments.report import explain, report
 
-sync_api = pytest.importorskip("playwright.sync_api", reason="the report is not tried in a browser: playwright is not installed (pip install playwright)")
-CHROMIUM = next((found for name in ("chromium", "chromium-browser", "google-chrome", "chrome") if (found := shutil.which(name))), None)
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="the report is not tried in a browser: no Chromium is here (apt-get install chromium)")
+sync_api = pytest.importorskip(
+    "playwright.sync_api", reason="the report is not tried in a browser: playwright is not installed (pip install playwright)"
+)
+CHROMIUM = next(
+    (found for name in ("chromium", "chromium-browser", "google-chrome", "chrome") if (found := shutil.which(name))), None
+)
+pytestmark = pytest.mark.skipif(
+    CHROMIUM is None, reason="the report is not tried in a browser: no Chromium is here (apt-get install chromium)"
+)
 
 
 @pytest.fixture(scope="module")
 def browser():
     with sync_api.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
+        browser = driver.chromium.launch(
+            executable_path=CHROMIUM, args=["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+        )
         yield browser
         browser.close()
 
@@ -32,7 +41,10 @@ def open_page(browser):
         page = browser.new_page(viewport={"width": 1280, "height": 900}, **options)
         page.on("console", lambda m: trouble.append(m.text) if m.type == "error" else None)
         page.on("pageerror", lambda e: trouble.append(str(e)))
-        page.on("request", lambda r: trouble.append(f"asked for {r.url}") if not r.url.startswith(("file:", "blob:", "data:")) else None)
+        page.on(
+            "request",
+            lambda r: trouble.append(f"asked for {r.url}") if not r.url.startswith(("file:", "blob:", "data:")) else None,
+        )
         page.set_default_timeout(30_000)
         page.goto(f"file://{path}")
         page.wait_for_selector("html[data-ready]")
@@ -71,7 +83,9 @@ def until(page, condition: str) -> None:
 
 def board(page) -> pd.DataFrame:
     """The leaderboard as it stands on the page."""
-    head, *rows = page.evaluate("[...document.querySelectorAll('#leaderboard tr')].map((r) => [...r.children].map((c) => [...c.childNodes].filter((n) => n.nodeName !== 'SMALL').map((n) => n.textContent).join('')))")
+    head, *rows = page.evaluate(
+        "[...document.querySelectorAll('#leaderboard tr')].map((r) => [...r.children].map((c) => [...c.childNodes].filter((n) => n.nodeName !== 'SMALL').map((n) => n.textContent).join('')))"
+    )
     return pd.DataFrame(rows, columns=[h.strip(" ↑↓") for h in head]).set_index("Method")
 
 
@@ -94,7 +108,12 @@ def test_the_leaderboard_counts_as_the_run_does(open_page, written, found):
 def test_intervals_are_those_of_scipy(open_page, written):
     page = open_page(written)
     pairs = [(0, 1), (0, 30), (30, 30), (1, 3), (7, 160), (12, 2000), (1999, 2000)]
-    assert np.allclose(page.evaluate("(pairs) => pairs.map(([k, n]) => wilson(k, n))", pairs), [metrics.wilson(k, n) for k, n in pairs], rtol=1e-9, atol=1e-12)
+    assert np.allclose(
+        page.evaluate("(pairs) => pairs.map(([k, n]) => wilson(k, n))", pairs),
+        [metrics.wilson(k, n) for k, n in pairs],
+        rtol=1e-9,
+        atol=1e-12,
+    )
 
 
 def test_times_are_those_of_the_tables(open_page, written, run):
@@ -164,8 +183,13 @@ def test_a_case_opens_plays_and_closes_by_keyboard(open_page, written):
     card.focus()
     page.keyboard.press("Enter")
     page.wait_for_selector("#case[data-ready]")
-    assert page.evaluate("(() => { const gl = openView.scene().renderer.getContext(), p = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight); openView.scene().draw(); "
-                         "gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, p); return p.filter((v, i) => i % 4 === 3 && v > 0).length; })()") > 1000
+    assert (
+        page.evaluate(
+            "(() => { const gl = openView.scene().renderer.getContext(), p = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight); openView.scene().draw(); "
+            "gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, p); return p.filter((v, i) => i % 4 === 3 && v > 0).length; })()"
+        )
+        > 1000
+    )
     page.click(".jumps button:text('start')")
     start = picture(page)
     assert "separates them" in page.inner_text(".said")
@@ -188,7 +212,8 @@ def test_a_case_opens_plays_and_closes_by_keyboard(open_page, written):
 
 
 def test_planes_of_the_page_separate_the_bodies_over_the_certified_time(open_page, written):
-    """Of every case that the page can draw: the tightest plane has a clearance at every time up to the impact, the point lies in both boxes."""
+    """Of every case that the page can draw: the tightest plane has a clearance at every time up to the impact, the point lies
+    in both boxes."""
     page = open_page(written)
     worst = page.evaluate("""async () => {
       const found = [];
@@ -225,7 +250,9 @@ def test_one_case_from_a_run_and_from_a_file(open_page, run, found, tmp_path):
     assert texts[0] == texts[1]
     (tmp_path / "case.html").write_text(texts[0])
     page = open_page(tmp_path / "case.html")
-    verdicts = page.evaluate("[...document.querySelectorAll('#verdicts tbody tr')].map((r) => [r.children[0].textContent, r.children[1].firstChild.textContent.slice(2)])")
+    verdicts = page.evaluate(
+        "[...document.querySelectorAll('#verdicts tbody tr')].map((r) => [r.children[0].textContent, r.children[1].firstChild.textContent.slice(2)])"
+    )
     part = found[(found.case == missed) & ~found.detail.str.startswith("does not answer")]
     assert dict(verdicts) == dict(zip(part.method, part.outcome))
     page.click(".jumps button:text('start')")

@@ -13,8 +13,10 @@ from experiments.report import explain
 from experiments.store import StoreError
 
 CUBE = [[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]
-HAND = {"case": {"question": "translation", "body_a": "cube", "body_b": "cube", "position_a": [0, 0, 5], "displacement": [0, 0, -8]},
-        "bodies": [{"body": "cube", "kind": "convex", "vertices": np.ravel(CUBE).tolist()}]}
+HAND = {
+    "case": {"question": "translation", "body_a": "cube", "body_b": "cube", "position_a": [0, 0, 5], "displacement": [0, 0, -8]},
+    "bodies": [{"body": "cube", "kind": "convex", "vertices": np.ravel(CUBE).tolist()}],
+}
 
 
 def test_a_case_comes_back_from_its_file_as_it_was(run, tmp_path):
@@ -28,7 +30,20 @@ def test_a_case_comes_back_from_its_file_as_it_was(run, tmp_path):
 
 def test_a_file_by_hand_is_certified_and_asked(tmp_path):
     (tmp_path / "mine.json").write_text(json.dumps(HAND))
-    result = CliRunner().invoke(app, ["explain", "--file", str(tmp_path / "mine.json"), "--method", "ofg k=12", "--method", "fcl-convex-substeps n=4", "--out", str(tmp_path / "mine.html")])
+    result = CliRunner().invoke(
+        app,
+        [
+            "explain",
+            "--file",
+            str(tmp_path / "mine.json"),
+            "--method",
+            "ofg k=12",
+            "--method",
+            "fcl-convex-substeps n=4",
+            "--out",
+            str(tmp_path / "mine.html"),
+        ],
+    )
     assert result.exit_code == 0, result.output
     found = explain.from_file(tmp_path / "mine.json")
     assert found.truth.label == "hit" and found.truth.t_lo <= 3 / 8 <= found.truth.t_hi
@@ -44,12 +59,15 @@ def test_asked_anew_a_run_says_the_same(run, tmp_path):
     pd.testing.assert_frame_equal(explain.verdicts(again), explain.verdicts(before))
 
 
-@pytest.mark.parametrize("change, words", [
-    (lambda c: c["case"].pop("question"), "lacks the field 'question'"),
-    (lambda c: c["case"].update(body_a="sphere"), "lacks the field 'sphere'"),
-    (lambda c: c["bodies"][0].update(vertices=5), "wrong form"),
-    (lambda c: c.pop("bodies"), "lacks the field 'bodies'"),
-])
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        (lambda c: c["case"].pop("question"), "lacks the field 'question'"),
+        (lambda c: c["case"].update(body_a="sphere"), "lacks the field 'sphere'"),
+        (lambda c: c["bodies"][0].update(vertices=5), "wrong form"),
+        (lambda c: c.pop("bodies"), "lacks the field 'bodies'"),
+    ],
+)
 def test_a_wrong_file_is_told_what_it_lacks(tmp_path, change, words):
     content = json.loads(json.dumps(HAND))
     change(content)

@@ -1,4 +1,5 @@
-"""What the page is given equals what the run holds; every linked cell of a table leads to exactly the cases it counts; nothing points outside."""
+"""What the page is given equals what the run holds; every linked cell of a table leads to exactly the cases it counts; nothing
+points outside."""
 
 import base64
 import gzip
@@ -23,7 +24,11 @@ def given(run):
 @pytest.fixture(scope="module")
 def found(run):
     found = metrics.outcomes(run)
-    return found.assign(band=tables.gap_bands(found.relative_gap)[0], sizes=size_of(found.faces), situation=situation_of(found).where(found.label != "uncertain", "uncertain"))
+    return found.assign(
+        band=tables.gap_bands(found.relative_gap)[0],
+        sizes=size_of(found.faces),
+        situation=situation_of(found).where(found.label != "uncertain", "uncertain"),
+    )
 
 
 def test_letters_are_the_outcomes(given, found):
@@ -44,8 +49,13 @@ def test_times_and_errors_are_those_of_the_run(given, found):
 
 
 #: kind of a link -> those of its rows that the number before the stroke counts
-COUNTED = {"judged": lambda rows: rows.outcome.isin(["miss", "false alarm"]), "judged hit": lambda rows: rows.outcome == "miss", "judged clear": lambda rows: rows.outcome == "false alarm",
-           "can tunnel": lambda rows: rows.tunnelled, "asked": lambda rows: rows.status == "ok"}
+COUNTED = {
+    "judged": lambda rows: rows.outcome.isin(["miss", "false alarm"]),
+    "judged hit": lambda rows: rows.outcome == "miss",
+    "judged clear": lambda rows: rows.outcome == "false alarm",
+    "can tunnel": lambda rows: rows.tunnelled,
+    "asked": lambda rows: rows.status == "ok",
+}
 
 
 def counted(text: str) -> int | None:
@@ -81,8 +91,21 @@ def test_every_linked_cell_leads_to_the_rows_it_counts(run, found):
                 else:
                     assert len(rows) == number, (table.name, column, text)
                 checked.add(table.name)
-    assert {"truth", "accuracy-overlap", "scenarios-motion", "gap-overlap", "time-of-impact-motion", "cost-overlap", "by-level", "by-form", "by-band", "walls", "by-faces", "answers",
-            "errors"} <= checked
+    assert {
+        "truth",
+        "accuracy-overlap",
+        "scenarios-motion",
+        "gap-overlap",
+        "time-of-impact-motion",
+        "cost-overlap",
+        "by-level",
+        "by-form",
+        "by-band",
+        "walls",
+        "by-faces",
+        "answers",
+        "errors",
+    } <= checked
 
 
 def test_bodies_come_back_bit_for_bit(run, given):
@@ -134,7 +157,9 @@ def test_planes_separate_the_elements_they_are_for(run):
             for body, pose, key, lo, hi in ((q.a, q.pose_a, "order_a", a0, a1), (q.b, q.pose_b, "order_b", b0, b1)):
                 elements = [body.vertices[f] for f in body.faces] if body.kind == "mesh" else [p.vertices for p in body.pieces]
                 order = proof.get(key, range(len(elements)))[slice(lo, hi)]
-                points.append(np.concatenate([elements[i] for i in order]) @ pose.rotation.T + (pose.position - q.pose_a.position))
+                points.append(
+                    np.concatenate([elements[i] for i in order]) @ pose.rotation.T + (pose.position - q.pose_a.position)
+                )
             assert (points[1] @ n).min() > (points[0] @ n).max() - 1e-9 * q.a.size, case.id
             seen += 1
     assert seen > 10
@@ -143,10 +168,16 @@ def test_planes_separate_the_elements_they_are_for(run):
 def test_the_page_names_no_network_holds_the_data_and_is_the_same_when_made_again(run, given):
     report(run)
     text = (run.folder / "report.html").read_text()
-    assert not re.search(r"""\b(?:src|href|action|poster|data)\s*=\s*["']?\s*(?:https?:)?//""", text) and "@import" not in text and "url(http" not in text
+    assert (
+        not re.search(r"""\b(?:src|href|action|poster|data)\s*=\s*["']?\s*(?:https?:)?//""", text)
+        and "@import" not in text
+        and "url(http" not in text
+    )
     assert "default-src 'none'" in text
     block = re.search(r'<script type="application/octet-stream" id="data">([^<]*)</script>', text)[1]
-    assert json.loads(gzip.decompress(base64.b64decode(block))) == json.loads(json.dumps(payload._plain({k: v for k, v in given.items() if k != "bytes"})))
+    assert json.loads(gzip.decompress(base64.b64decode(block))) == json.loads(
+        json.dumps(payload._plain({k: v for k, v in given.items() if k != "bytes"}))
+    )
     assert page.page(given, f"{given['run']['title']}: collision detection, certified") == text
 
 

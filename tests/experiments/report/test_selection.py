@@ -1,4 +1,5 @@
-"""The selections that the page shows are those of the core: asked about them alone, all against all, the core gives OFG's own answer."""
+"""The selections that the page shows are those of the core: asked about them alone, all against all, the core gives OFG's own
+answer."""
 
 import numpy as np
 import pytest
@@ -10,14 +11,25 @@ from ofg import _core
 from ofg.algorithm import BRUTE_FORCE, _row
 from ofg.options import core_options
 
-OPTIONS = [{"k": 4}, {"k": 8}, {"k": 16}, {"k": 8, "broad": "start"}, {"k": 4, "selection": "point-triangle"}, {"k": 4, "adaptive_k": True}, {"k": 4, "selections": 2},
-           {"k": 4, "selections": 3}, {"k": 8, "concave": "undivided"}]
+OPTIONS = [
+    {"k": 4},
+    {"k": 8},
+    {"k": 16},
+    {"k": 8, "broad": "start"},
+    {"k": 4, "selection": "point-triangle"},
+    {"k": 4, "adaptive_k": True},
+    {"k": 4, "selections": 2},
+    {"k": 4, "selections": 3},
+    {"k": 8, "concave": "undivided"},
+]
 
 
 def alone(body: ofg.Body, faces: list[int]) -> _core.Solid:
     """A surface of these faces, without the other vertices of the body."""
     used, index = np.unique(body.faces[faces], return_inverse=True)
-    return _core.Solid(np.ascontiguousarray(body.vertices[used]), np.ascontiguousarray(index.reshape(-1, 3), dtype=np.int32), False, [], [])
+    return _core.Solid(
+        np.ascontiguousarray(body.vertices[used]), np.ascontiguousarray(index.reshape(-1, 3), dtype=np.int32), False, [], []
+    )
 
 
 @pytest.mark.parametrize("options", OPTIONS, ids=str)
@@ -27,7 +39,9 @@ def test_all_pairs_of_the_selected_faces_give_the_answer_of_ofg(run, options):
         q = case.query
         made = selection.trace(q, options, truth.t_hi)
         motions = [_row(x)[None] for x in (q.pose_a, q.pose_b, q.motion, ofg.Motion())]
-        found = _core.ask_many(alone(q.a, made["a"]), alone(q.b, made["b"]), *motions, core_options(), BRUTE_FORCE, q.question != "overlap", False, 1)[0][0]
+        found = _core.ask_many(
+            alone(q.a, made["a"]), alone(q.b, made["b"]), *motions, core_options(), BRUTE_FORCE, q.question != "overlap", False, 1
+        )[0][0]
         assert (bool(found) and not made["stopped"]) == made["hit"], case.id
         answers.add(made["hit"])
     assert answers == {True, False}
