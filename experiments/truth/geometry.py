@@ -60,7 +60,7 @@ class points:
     def __init__(self, body, order):
         self.mesh = body if body.kind == "mesh" else None
         if self.mesh:
-            self.ids = (body.faces if order is None else body.faces[order]).ravel()
+            self.known, self.ids = {}, (body.faces if order is None else body.faces[order]).ravel()
         elif len(body.pieces) == 1:
             self.block, self.first = body.pieces[0].vertices, (0, len(body.pieces[0].vertices))
         else:
@@ -70,12 +70,14 @@ class points:
     def of(self, lo, hi):
         if not self.mesh:
             return self.block[self.first[lo] : self.first[hi]]
-        ids = self.ids[3 * lo : 3 * hi]
-        if len(ids) > 100:  # a vertex belongs to about six faces: each once
-            met = np.zeros(len(self.mesh.vertices), bool)
-            met[ids] = True
-            return self.mesh.vertices[met]
-        return self.mesh.vertices[ids]
+        if (lo, hi) not in self.known:
+            ids = self.ids[3 * lo : 3 * hi]
+            if len(ids) > 100:  # a vertex belongs to about six faces: each once
+                met = np.zeros(len(self.mesh.vertices), bool)
+                met[ids] = True
+                ids = met
+            self.known[lo, hi] = self.mesh.vertices[ids]
+        return self.known[lo, hi]
 
 
 def elements(body):
@@ -90,7 +92,7 @@ def parts(body):
             _parts[body] = [p.vertices[0] for p in body.pieces]
         else:
             part, before = np.arange(len(body.vertices)), None
-            while not np.array_equal(part, before):
+            while not np.array_equal(part, before) and part[body.faces].any():  # all 0: one part, as most bodies are
                 before, low = part.copy(), part[body.faces].min(axis=1)
                 for i in range(3):
                     np.minimum.at(part, body.faces[:, i], low)
