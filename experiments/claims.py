@@ -56,7 +56,7 @@ def accuracy(cases: int, rng) -> tuple[pd.DataFrame, pd.DataFrame]:
         for depth, (low, high) in DEPTHS.items():
             hits = overlapping(faces, low, high, cases if faces < 5120 else cases // 4, rng)
             row = {"faces": faces, "depth": depth}
-            for k in (*KS, ALL):
+            for k in (*(k for k in KS if k < faces), ALL):
                 answers = [ofg.ask(q, k=k) for q in hits]
                 row[f"k={k}" if k < ALL else "k=all"] = rate(sum(not a.hit for a in answers), len(hits))
                 full = min(k, faces) ** 2
@@ -119,7 +119,7 @@ def families(cases: int, seed: int) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def pieces(q: Query, options: dict) -> Query:
-    if options.get("concave") == "undivided":
+    if options.get("concave") == "undivided" or options.get("repairs") == "all":  # as the method does: adaptive k needs no convexity
         return q
     return Query(q.question, ofg.decompose(q.a), ofg.decompose(q.b), q.pose_a, q.pose_b, q.motion)
 
