@@ -10,9 +10,10 @@ from ofg import QUESTIONS, Query
 
 from .contract import Method, Unsupported, Verdict
 
-
 #: options that the article does not have; `broad` and `concave` are readings of it
-_REPAIRED = frozenset({"selection", "adaptive_k", "both_vertices", "edge_edge", "selections", "arc_tolerance", "containment", "earliest"})
+_REPAIRED = frozenset(
+    {"selection", "adaptive_k", "both_vertices", "edge_edge", "selections", "arc_tolerance", "containment", "earliest"}
+)
 
 
 class OpposingFaceGeometry(Method):
@@ -33,9 +34,21 @@ class OpposingFaceGeometry(Method):
     gives_time = True
     guarantee = "a hit is a contact of faces to double rounding; as written nothing is promised about what it does not find"
     parameters = {
-        "k": 8, "toi": "velocity", "broad": "swept", "concave": "object", "repairs": "none", "selection": "centroid", "adaptive_k": False,
-        "both_vertices": False, "edge_edge": False, "selections": 1, "arc_tolerance": 0.0, "containment": False, "earliest": False,
-        "iterations": 20, "precision": "double",
+        "k": 8,
+        "toi": "velocity",
+        "broad": "swept",
+        "concave": "object",
+        "repairs": "none",
+        "selection": "centroid",
+        "adaptive_k": False,
+        "both_vertices": False,
+        "edge_edge": False,
+        "selections": 1,
+        "arc_tolerance": 0.0,
+        "containment": False,
+        "earliest": False,
+        "iterations": 20,
+        "precision": "double",
     }
 
     def __init__(self, **parameters):
@@ -48,11 +61,16 @@ class OpposingFaceGeometry(Method):
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
         options = self._options()
-        if options.get("concave") != "undivided" and not options.get("adaptive_k"):
+        if self.in_pieces:
             query = Query(query.question, _pieces(query.a), _pieces(query.b), query.pose_a, query.pose_b, query.motion)
         ask = ofg.prepare(query, **options)
         return lambda: Verdict(*ask())
 
+    @property
+    def in_pieces(self) -> bool:
+        """Whether meshes are decomposed before they are asked."""
+        options = self._options()
+        return options.get("concave") != "undivided" and not options.get("adaptive_k")
 
     def _options(self) -> dict:
         """What the core is asked with: the repairs, overruled by what is given by name."""

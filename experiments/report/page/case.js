@@ -318,6 +318,9 @@ function ofgWords(i, label, x) {
   );
   if (x.bodies.some((b, k) => b !== D.drawn[i][k]))
     lines.push("It was asked about CoACD's pieces of the mesh, which are another body than the mesh near its surface.");
+  const letter = D.outcome[D.method.get(label)]?.[i], hit = c.label[i] === "hit";
+  if ((letter === "m" || letter === "f" || letter === "r") && x.hit !== (letter === "r" ? hit : letter === "f"))
+    lines.push("The OFG that made this page answers otherwise than the one of the run.");
   if (x.hit) {
     lines.push(
       `It answered hit${x.time !== null ? ` at t = ${number(x.time, 8)}` : ""}: ${{ start: "faces that meet at the start", end: "faces that meet at the end", "edge-face": "a virtual edge of A meets a face of B", "face-edge": "a virtual edge of B meets a face of A", "edge-edge": "a moving edge meets an edge", inside: "one body lies inside the other" }[x.found] || x.found}${x.met ? ` (face ${x.met[0]} of A, face ${x.met[1]} of B)` : ""}.`,

@@ -181,6 +181,13 @@ def test_the_page_names_no_network_holds_the_data_and_is_the_same_when_made_agai
     assert page.page(given, f"{given['run']['title']}: collision detection, certified") == text
 
 
+def test_what_the_page_says_of_ofg_is_what_the_run_observed(run, given):
+    said = run.read("observations.parquet").query("status == 'ok'").set_index(["case", "method"]).hit
+    pairs = [(given["cases"]["case"][place], label, x["hit"]) for place, overlays in given["ofg"].items() for label, x in overlays.items()]
+    assert len(pairs) > 30 and {hit for *_, hit in pairs} == {True, False}
+    assert [hit for *_, hit in pairs] == [said[case, label] for case, label, _ in pairs]
+
+
 def test_a_large_selection_is_counted_and_not_drawn(run, given, monkeypatch):
     monkeypatch.setattr(payload, "SELECTED", 5)
     made = payload.of_run(run)["ofg"]
