@@ -44,7 +44,8 @@ def bodies(rng: np.random.Generator) -> dict[str, tuple[Body, Body]]:
 
 def poses(rng: np.random.Generator, a: Body, b: Body, low: float, high: float, n: int) -> np.ndarray:
     """(n, 14): random orientations and directions, B at a gap along the direction drawn log-uniformly from low to high of the radius
-    (negative: depth). Contact along the direction is found by bisection with OFG in full: it places the pairs, and judges nothing."""
+    (negative: depth). Contact along the direction is found by bisection with OFG in full: it places the pairs, and judges nothing.
+    """
     pa, pb = (np.column_stack([rng.normal(size=(n, 4)), np.zeros((n, 3))]) for _ in range(2))
     d = rng.normal(size=(n, 3))
     d /= np.linalg.norm(d, axis=1)[:, None]
@@ -106,9 +107,18 @@ def steps(rows: pd.DataFrame) -> pd.DataFrame:
     for (cell, method), _ in rows[rows["method"].str.fullmatch(r"OFG \w+ k=\d+")].groupby(["cell", "method"], sort=False):
         own = rows[rows["cell"] == cell].pivot(index="round", columns="method", values="nanoseconds")
         to = [own[f"{method} to step 1"], own[f"{method} to step 3"], own[f"{method} to step 6"], own[method]]
-        table.append({"cell": cell, "method": method, "1 spheres": to[0].median(), "2-3 select A": (to[1] - to[0]).median(),
-                      "4-6 select B": (to[2] - to[1]).median(), "7-8 face pairs": (to[3] - to[2]).median(), "all": to[3].median(),
-                      "hits": int(rows[(rows["cell"] == cell) & (rows["method"] == method)]["hits"].iloc[0])})
+        table.append(
+            {
+                "cell": cell,
+                "method": method,
+                "1 spheres": to[0].median(),
+                "2-3 select A": (to[1] - to[0]).median(),
+                "4-6 select B": (to[2] - to[1]).median(),
+                "7-8 face pairs": (to[3] - to[2]).median(),
+                "all": to[3].median(),
+                "hits": int(rows[(rows["cell"] == cell) & (rows["method"] == method)]["hits"].iloc[0]),
+            }
+        )
     return pd.DataFrame(table)
 
 
@@ -122,7 +132,9 @@ def ratios(rows: pd.DataFrame, method: str) -> pd.DataFrame:
         engines = [e for e in ENGINES if e in own]
         quotient = {e: (own[method] / own[e]).median() for e in engines}
         fastest = min(engines, key=lambda e: own[e].median(), default=None)
-        table.append({"cell": cell, "ns": own[method].median(), **quotient, "fastest": fastest, "ratio to it": quotient.get(fastest)})
+        table.append(
+            {"cell": cell, "ns": own[method].median(), **quotient, "fastest": fastest, "ratio to it": quotient.get(fastest)}
+        )
     return pd.DataFrame(table)
 
 
@@ -140,7 +152,9 @@ def main() -> None:
     parser.add_argument("--pairs", type=int, default=512, help="pairs of poses per cell; a quarter from 1,280 faces on")
     parser.add_argument("--rounds", type=int, default=11)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--isa", choices=("sse2", "avx2", "avx512"), help="instruction set of OFG; the machine's widest if not given")
+    parser.add_argument(
+        "--isa", choices=("sse2", "avx2", "avx512"), help="instruction set of OFG; the machine's widest if not given"
+    )
     parser.add_argument("--build", type=Path, default=ROOT / "build/bench_ofg")
     parser.add_argument("--csv", type=Path, help="write the raw rows here")
     a = parser.parse_args()
@@ -152,13 +166,18 @@ def main() -> None:
     if a.csv:
         rows.to_csv(a.csv, index=False)
     missing = [e for e in ENGINES if e not in set(rows["method"])]
-    print(f"{a.pairs} pairs per cell (a quarter from 1,280 faces on), {a.rounds} rounds, load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores. "
-          + (f"Not found, so left out: {', '.join(missing)}." if missing else ""))
+    print(
+        f"{a.pairs} pairs per cell (a quarter from 1,280 faces on), {a.rounds} rounds, load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores. "
+        + (f"Not found, so left out: {', '.join(missing)}." if missing else "")
+    )
     pd.set_option("display.width", 250, "display.max_columns", 30, "display.max_rows", 500)
     form = {"float_format": lambda x: f"{x:.0f}"}
     print("\nTime per step, ns per query\n" + steps(rows).to_string(index=False, **form))
     for method in ("OFG float k=8", "OFG double k=8", "OFG double repaired", "OFG double k=all"):
-        print(f"\n{method} over each engine, time per query\n" + ratios(rows, method).to_string(index=False, float_format=lambda x: f"{x:.3g}"))
+        print(
+            f"\n{method} over each engine, time per query\n"
+            + ratios(rows, method).to_string(index=False, float_format=lambda x: f"{x:.3g}")
+        )
     wanted = [m for m in rows["method"].unique() if "to step" not in m]
     print("\nWrong answers, % of pairs\n" + errors(rows, asked)[wanted].T.to_string(float_format=lambda x: f"{x:.2g}"))
 

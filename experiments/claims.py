@@ -61,10 +61,18 @@ def accuracy(cases: int, rng) -> tuple[pd.DataFrame, pd.DataFrame]:
                 row[f"k={k}" if k < ALL else "k=all"] = rate(sum(not a.hit for a in answers), len(hits))
                 full = min(k, faces) ** 2
                 pairs = [a.counts["face_pairs"] / full for a in answers]
-                operations.append({"faces": faces, "depth": depth, "k": min(k, faces), "distances / (n + m)": np.mean([a.counts["distances"] / (2 * faces) for a in answers]),
-                                   "computed / (n + m)": np.mean([a.counts["evaluated"] / (2 * faces) for a in answers]),
-                                   "face pairs / k^2, mean": np.mean(pairs), "most": np.max(pairs),
-                                   "full tests, mean": np.mean([a.counts["full_tests"] for a in answers])})
+                operations.append(
+                    {
+                        "faces": faces,
+                        "depth": depth,
+                        "k": min(k, faces),
+                        "distances / (n + m)": np.mean([a.counts["distances"] / (2 * faces) for a in answers]),
+                        "computed / (n + m)": np.mean([a.counts["evaluated"] / (2 * faces) for a in answers]),
+                        "face pairs / k^2, mean": np.mean(pairs),
+                        "most": np.max(pairs),
+                        "full tests, mean": np.mean([a.counts["full_tests"] for a in answers]),
+                    }
+                )
             row["repairs=all"] = rate(sum(not ofg.ask(q, repairs="all").hit for q in hits), len(hits))
             misses.append(row)
     return pd.DataFrame(misses), pd.DataFrame(operations)
@@ -93,10 +101,28 @@ def timed(call) -> float:
     return time.process_time() - start
 
 
-VARIANTS = {"as written": {}, "k=16": {"k": 16}, "k=all": {"k": ALL}, "step 1 at the start": {"broad": "start"}, "repairs=all": {"repairs": "all"}}
-CONCAVE = {"object": {}, "undivided": {"concave": "undivided"}, "all pairs of pieces": {"concave": "all-pairs"}, "repairs=all": {"repairs": "all"}}
-FAMILIES = {"thin_wall": VARIANTS, "screw_wall": VARIANTS, "rotational_contact": VARIANTS, "spin_side": VARIANTS, "hooked_ls": CONCAVE,
-            "linked_tori": CONCAVE, "concave_rotation": CONCAVE}
+VARIANTS = {
+    "as written": {},
+    "k=16": {"k": 16},
+    "k=all": {"k": ALL},
+    "step 1 at the start": {"broad": "start"},
+    "repairs=all": {"repairs": "all"},
+}
+CONCAVE = {
+    "object": {},
+    "undivided": {"concave": "undivided"},
+    "all pairs of pieces": {"concave": "all-pairs"},
+    "repairs=all": {"repairs": "all"},
+}
+FAMILIES = {
+    "thin_wall": VARIANTS,
+    "screw_wall": VARIANTS,
+    "rotational_contact": VARIANTS,
+    "spin_side": VARIANTS,
+    "hooked_ls": CONCAVE,
+    "linked_tori": CONCAVE,
+    "concave_rotation": CONCAVE,
+}
 
 
 def families(cases: int, seed: int) -> tuple[pd.DataFrame, pd.DataFrame]:
@@ -119,15 +145,21 @@ def families(cases: int, seed: int) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def pieces(q: Query, options: dict) -> Query:
-    if options.get("concave") == "undivided" or options.get("repairs") == "all":  # as the method does: adaptive k needs no convexity
+    if (
+        options.get("concave") == "undivided" or options.get("repairs") == "all"
+    ):  # as the method does: adaptive k needs no convexity
         return q
     return Query(q.question, ofg.decompose(q.a), ofg.decompose(q.b), q.pose_a, q.pose_b, q.motion)
 
 
 def time_errors(family: str, q: Query, truth):
     """Signed error of each estimate against its bracket; only hits that the variant found and gave a time."""
-    variants = {"velocity": {}, "bisection": {"toi": "bisection"}, "repairs=all, velocity": {"repairs": "all"},
-                "repairs=all, bisection": {"repairs": "all", "toi": "bisection"}}
+    variants = {
+        "velocity": {},
+        "bisection": {"toi": "bisection"},
+        "repairs=all, velocity": {"repairs": "all"},
+        "repairs=all, bisection": {"repairs": "all", "toi": "bisection"},
+    }
     for name, options in variants.items():
         t = ofg.ask(pieces(q, options), **options).time
         if not np.isnan(t):
@@ -141,17 +173,24 @@ def impact_table(errors: pd.DataFrame) -> pd.DataFrame:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cases", type=int, default=200, help="cases per cell; a quarter at 5,120 faces, a fifth per level of a family")
+    parser.add_argument(
+        "--cases", type=int, default=200, help="cases per cell; a quarter at 5,120 faces, a fifth per level of a family"
+    )
     parser.add_argument("--seed", type=int, default=2004)
     parser.add_argument("--out", type=Path, help="write the tables here as Markdown")
     a = parser.parse_args()
     rng = np.random.default_rng(a.seed)
     misses, operations = accuracy(a.cases, rng)
     by_family, impacts = families(max(a.cases // 5, 2), a.seed)
-    parts = [("1. Misses against k (Wilson 95 %), discrete, random hulls", misses), ("2. Operations", operations),
-             ("3. Time over that of all pairs of faces (batched, no Python in it), separated pairs", pays(rng))]
-    parts += [(f"4. Misses in {name}: {table['axis'].iloc[0]}", table[["level", "uncertain", *FAMILIES[name]]])
-              for name, table in by_family.groupby("family", sort=False)]
+    parts = [
+        ("1. Misses against k (Wilson 95 %), discrete, random hulls", misses),
+        ("2. Operations", operations),
+        ("3. Time over that of all pairs of faces (batched, no Python in it), separated pairs", pays(rng)),
+    ]
+    parts += [
+        (f"4. Misses in {name}: {table['axis'].iloc[0]}", table[["level", "uncertain", *FAMILIES[name]]])
+        for name, table in by_family.groupby("family", sort=False)
+    ]
     parts.append(("5. Time of impact: error against the certified bracket, in steps", impact_table(impacts)))
     text = "\n\n".join(f"### {title}\n\n{table.to_markdown(index=False, floatfmt='.3g')}" for title, table in parts)
     print(text)

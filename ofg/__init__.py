@@ -1,6 +1,16 @@
 """Opposing Face Geometry (Eli Kara, GameDev.net 2004): a collision test that looks only at the faces that oppose each other."""
 
-from .algorithm import ask, brute_force, brute_force_many, discrete, discrete_many, prepare, rotational_sweep, sweep_many, translational_sweep
+from .algorithm import (
+    ask,
+    brute_force,
+    brute_force_many,
+    discrete,
+    discrete_many,
+    prepare,
+    rotational_sweep,
+    sweep_many,
+    translational_sweep,
+)
 from .answer import COUNTS, FOUND, Answer, Answers
 from .body import Body, BodyError
 from .decomposition import decompose
@@ -10,6 +20,26 @@ from .pose import Pose
 from .query import QUESTIONS, Query
 
 __all__ = [
-    "Answer", "Answers", "Body", "BodyError", "COUNTS", "FOUND", "Motion", "Pose", "QUESTIONS", "Query", "REPAIRS", "ask", "brute_force",
-    "brute_force_many", "decompose", "discrete", "discrete_many", "prepare", "repair_options", "rotational_sweep", "sweep_many", "translational_sweep",
+    "Answer",
+    "Answers",
+    "Body",
+    "BodyError",
+    "COUNTS",
+    "FOUND",
+    "Motion",
+    "Pose",
+    "QUESTIONS",
+    "Query",
+    "REPAIRS",
+    "ask",
+    "brute_force",
+    "brute_force_many",
+    "decompose",
+    "discrete",
+    "discrete_many",
+    "prepare",
+    "repair_options",
+    "rotational_sweep",
+    "sweep_many",
+    "translational_sweep",
 ]

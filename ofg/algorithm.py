@@ -35,16 +35,25 @@ def discrete(a: Body, b: Body, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, 
     precision: "double" or "float" (the relative pose is in double always).
     repairs: "none", "all", "all-but-X", "X" or "X+Y" of the names below; or one by one:
     selection="point-triangle" (point-triangle), adaptive_k=True (adaptive-k), broad="swept" (swept-spheres), both_vertices=True
-    (both-vertices), edge_edge=True (edge-edge), selections=3 (selection-times), arc_tolerance=1e-6 (arcs: chords stray by no more than this share of A's radius), containment=True (containment),
-    concave="all-pairs" (all-pieces), earliest=True (earliest).
+    (both-vertices), edge_edge=True (edge-edge), selections=3 (selection-times), arc_tolerance=1e-6 (arcs: chords stray by no more
+    than this share of A's radius), containment=True (containment), concave="all-pairs" (all-pieces), earliest=True (earliest).
 
     Raises ValueError or TypeError for an option that is unknown or out of range. Source: Kara, "Opposing Face Geometry", GameDev.net 2004.
     """
     return _ask(False, a, b, pose_a, pose_b, Motion(), Motion(), OFG, k=k, **options)
 
 
-def translational_sweep(a: Body, b: Body, displacement, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, displacement_b=(0, 0, 0), k: int = 8,
-                        **options) -> Answer:
+def translational_sweep(
+    a: Body,
+    b: Body,
+    displacement,
+    pose_a: Pose = Pose(),
+    pose_b: Pose = Pose(),
+    *,
+    displacement_b=(0, 0, 0),
+    k: int = 8,
+    **options,
+) -> Answer:
     """Translational sweep in six steps: `a` moves by `displacement` (and `b` by `displacement_b`), each (3,), over t in [0, 1].
 
     Options as of `discrete`. Source: part 3 of the article, "Solving the discrete time problem".
@@ -52,8 +61,17 @@ def translational_sweep(a: Body, b: Body, displacement, pose_a: Pose = Pose(), p
     return _ask(True, a, b, pose_a, pose_b, Motion(displacement), Motion(displacement_b), OFG, k=k, **options)
 
 
-def rotational_sweep(a: Body, b: Body, motion_a: Motion, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, motion_b: Motion = Motion(), k: int = 8,
-                     **options) -> Answer:
+def rotational_sweep(
+    a: Body,
+    b: Body,
+    motion_a: Motion,
+    pose_a: Pose = Pose(),
+    pose_b: Pose = Pose(),
+    *,
+    motion_b: Motion = Motion(),
+    k: int = 8,
+    **options,
+) -> Answer:
     """Rotational sweep: `a` (and `b`) turn about their own origins and translate. The virtual edges are chords of the true paths, seen
     from `b`. Options as of `discrete`. Source: part 3 of the article, "Solving for rotating objects".
     """
@@ -62,13 +80,25 @@ def rotational_sweep(a: Body, b: Body, motion_a: Motion, pose_a: Pose = Pose(), 
 
 def ask(query: Query, *, k: int = 8, **options) -> Answer:
     """The answer to a Query, by the variant that its question names."""
-    return _ask(query.question != "overlap", query.a, query.b, query.pose_a, query.pose_b, query.motion, Motion(), OFG, k=k, **options)
+    return _ask(
+        query.question != "overlap", query.a, query.b, query.pose_a, query.pose_b, query.motion, Motion(), OFG, k=k, **options
+    )
 
 
 def brute_force(query: Query, *, precision: str = "double") -> Answer:
     """All faces against all faces; in a sweep also every virtual edge of A against every face of B, with the earliest time. Bodies are
     undivided."""
-    return _ask(query.question != "overlap", query.a, query.b, query.pose_a, query.pose_b, query.motion, Motion(), BRUTE_FORCE, precision=precision)
+    return _ask(
+        query.question != "overlap",
+        query.a,
+        query.b,
+        query.pose_a,
+        query.pose_b,
+        query.motion,
+        Motion(),
+        BRUTE_FORCE,
+        precision=precision,
+    )
 
 
 def discrete_many(a: Body, b: Body, poses_a, poses_b, *, k: int = 8, threads: int | None = 1, **options) -> Answers:
@@ -80,7 +110,9 @@ def discrete_many(a: Body, b: Body, poses_a, poses_b, *, k: int = 8, threads: in
     return _many(False, a, b, poses_a, poses_b, Motion(), Motion(), OFG, threads, k=k, **options)
 
 
-def sweep_many(a: Body, b: Body, poses_a, poses_b, motions_a, motions_b=Motion(), *, k: int = 8, threads: int | None = 1, **options) -> Answers:
+def sweep_many(
+    a: Body, b: Body, poses_a, poses_b, motions_a, motions_b=Motion(), *, k: int = 8, threads: int | None = 1, **options
+) -> Answers:
     """Sweeps for n pairs of poses and motions in one call.
 
     motions_a, motions_b: sequences of n Motion, or (n, 7) arrays of displacement, axis and angle; one Motion stands for n of it. Where
@@ -89,19 +121,30 @@ def sweep_many(a: Body, b: Body, poses_a, poses_b, motions_a, motions_b=Motion()
     return _many(True, a, b, poses_a, poses_b, motions_a, motions_b, OFG, threads, k=k, **options)
 
 
-def brute_force_many(a: Body, b: Body, poses_a, poses_b, motions_a=None, motions_b=Motion(), *, threads: int | None = 1,
-                     precision: str = "double") -> Answers:
+def brute_force_many(
+    a: Body, b: Body, poses_a, poses_b, motions_a=None, motions_b=Motion(), *, threads: int | None = 1, precision: str = "double"
+) -> Answers:
     """`brute_force` for n pairs of poses (and motions, for sweeps) in one call."""
     still = motions_a is None
-    return _many(not still, a, b, poses_a, poses_b, Motion() if still else motions_a, motions_b, BRUTE_FORCE, threads, precision=precision)
+    return _many(
+        not still, a, b, poses_a, poses_b, Motion() if still else motions_a, motions_b, BRUTE_FORCE, threads, precision=precision
+    )
 
 
 def prepare(query: Query, *, algorithm: int = OFG, precision: str = "double", **options) -> _core.Prepared:
     """A callable that asks `query` in the core and returns (hit, time): what a harness times."""
     poses = np.array([_row(query.pose_a), _row(query.pose_b)])
     motions = np.array([_row(query.motion), _row(Motion())])
-    return _core.Prepared(solid(query.a), solid(query.b), poses, motions, core_options(**options), algorithm, query.question != "overlap",
-                          _is_float(precision))
+    return _core.Prepared(
+        solid(query.a),
+        solid(query.b),
+        poses,
+        motions,
+        core_options(**options),
+        algorithm,
+        query.question != "overlap",
+        _is_float(precision),
+    )
 
 
 def solid(body: Body) -> _core.Solid:
@@ -110,7 +153,9 @@ def solid(body: Body) -> _core.Solid:
     if key in _SOLIDS:
         _SOLIDS.move_to_end(key)
         return _SOLIDS[key]
-    made = _core.Solid(body.vertices, body.faces, body.kind == "convex", [p.vertices for p in body.pieces], [p.faces for p in body.pieces])
+    made = _core.Solid(
+        body.vertices, body.faces, body.kind == "convex", [p.vertices for p in body.pieces], [p.faces for p in body.pieces]
+    )
     _SOLIDS[key] = made
     if len(_SOLIDS) > _KEPT_SOLIDS:
         _SOLIDS.popitem(last=False)
@@ -122,7 +167,12 @@ def _ask(moving, a, b, pose_a, pose_b, motion_a, motion_b, algorithm, **options)
 
 
 def _many(moving, a, b, poses_a, poses_b, motions_a, motions_b, algorithm, threads, *, precision="double", **options) -> Answers:
-    rows = [_rows(poses_a, Pose, "poses_a"), _rows(poses_b, Pose, "poses_b"), _rows(motions_a, Motion, "motions_a"), _rows(motions_b, Motion, "motions_b")]
+    rows = [
+        _rows(poses_a, Pose, "poses_a"),
+        _rows(poses_b, Pose, "poses_b"),
+        _rows(motions_a, Motion, "motions_a"),
+        _rows(motions_b, Motion, "motions_b"),
+    ]
     n = max(len(r) for r in rows if r.ndim == 2) if any(r.ndim == 2 for r in rows) else 1
     rows = [np.ascontiguousarray(np.broadcast_to(r, (n, 7))) for r in rows if _fits(r, n)]
     if threads is None:
@@ -156,7 +206,9 @@ def _rows(values: Pose | Motion | Sequence | np.ndarray, kind: type, name: str) 
         return np.array([_row(v) for v in values]).reshape(-1, 7)
     rows = np.asarray(values, np.float64)
     if rows.ndim != 2 or rows.shape[1] != 7:
-        raise ValueError(f"{name} has shape {rows.shape}; give (n, 7): {'quaternion (w, x, y, z), position' if kind is Pose else 'displacement, axis, angle'}.")
+        raise ValueError(
+            f"{name} has shape {rows.shape}; give (n, 7): {'quaternion (w, x, y, z), position' if kind is Pose else 'displacement, axis, angle'}."
+        )
     bad = np.flatnonzero(~np.isfinite(rows).all(axis=1))
     if len(bad):
         raise ValueError(f"{name}[{bad[0]}] = {rows[bad[0]]} holds a number that is not finite; every number must be finite.")
@@ -169,5 +221,7 @@ def _rows(values: Pose | Motion | Sequence | np.ndarray, kind: type, name: str) 
 
 def _fits(rows: np.ndarray, n: int) -> bool:
     if rows.ndim == 2 and len(rows) != n:
-        raise ValueError(f"Arrays of poses and motions have {len(rows)} and {n} rows; give all the same number, or one Pose or Motion for all.")
+        raise ValueError(
+            f"Arrays of poses and motions have {len(rows)} and {n} rows; give all the same number, or one Pose or Motion for all."
+        )
     return True

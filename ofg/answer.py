@@ -57,8 +57,15 @@ class Answers:
     def __getitem__(self, i: int) -> Answer:
         found = FOUND[self.found[i]]
         estimate = self.toi if found in ("edge-face", "face-edge", "edge-edge") else "none"
-        return Answer(bool(self.hit[i]), float(self.time[i]), found, tuple(map(int, self.faces[i])), tuple(map(int, self.pieces[i])), estimate,
-                      dict(zip(COUNTS, map(int, self.counts[i]))))
+        return Answer(
+            bool(self.hit[i]),
+            float(self.time[i]),
+            found,
+            tuple(map(int, self.faces[i])),
+            tuple(map(int, self.pieces[i])),
+            estimate,
+            dict(zip(COUNTS, map(int, self.counts[i]))),
+        )
 
     def count(self, name: str) -> np.ndarray:
         """(n,) int64 of one kind of operation."""

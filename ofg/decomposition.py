@@ -73,7 +73,9 @@ def _coacd(body: Body, threshold: float, max_pieces: int, seed: int) -> list[np.
         except BodyError:
             continue  # a piece as flat as a sheet has no interior to collide with
     if not hulls:
-        raise BodyError(f"Body '{body.name}': CoACD found no piece with a volume. Repair the mesh (trimesh.repair), or take its hull with Body.convex.")
+        raise BodyError(
+            f"Body '{body.name}': CoACD found no piece with a volume. Repair the mesh (trimesh.repair), or take its hull with Body.convex."
+        )
     return hulls
 
 

@@ -38,8 +38,10 @@ def repair_options(repairs: str) -> dict[str, Any]:
     on = list(REPAIRS) if off or repairs == "all" else repairs.split("+")
     unknown = [name for name in [*on, *off] if name not in REPAIRS]
     if unknown:
-        raise ValueError(f"repairs = '{repairs}' names no repair '{unknown[0]}'; there are none, all, all-but-X, X and X+Y with X and Y of: "
-                         f"{', '.join(REPAIRS)}.")
+        raise ValueError(
+            f"repairs = '{repairs}' names no repair '{unknown[0]}'; there are none, all, all-but-X, X and X+Y with X and Y of: "
+            f"{', '.join(REPAIRS)}."
+        )
     options: dict[str, Any] = {}
     for name in on:
         options.update(REPAIRS[name][1 if name in off else 0])
@@ -59,12 +61,16 @@ def core_options(*, k: int = 8, toi: str = "velocity", repairs: str = "none", **
     o.iterations = _whole("iterations", chosen.pop("iterations", 20), 1, 60)
     o.arc_tolerance = float(chosen.pop("arc_tolerance", 0.0))
     if not 0 <= o.arc_tolerance < 1:
-        raise ValueError(f"arc_tolerance = {o.arc_tolerance} must lie in [0, 1): the share of A's radius that a chord may stray by; 0 cuts no arcs.")
+        raise ValueError(
+            f"arc_tolerance = {o.arc_tolerance} must lie in [0, 1): the share of A's radius that a chord may stray by; 0 cuts no arcs."
+        )
     for name in ("adaptive_k", "both_vertices", "edge_edge", "containment", "earliest"):
         setattr(o, name, bool(chosen.pop(name, False)))
     if chosen:
-        raise TypeError(f"OFG has no option '{next(iter(chosen))}'; it has k, toi, broad, concave, iterations, repairs, selection, adaptive_k, "
-                        "both_vertices, edge_edge, selections, arc_tolerance, containment, earliest.")
+        raise TypeError(
+            f"OFG has no option '{next(iter(chosen))}'; it has k, toi, broad, concave, iterations, repairs, selection, adaptive_k, "
+            "both_vertices, edge_edge, selections, arc_tolerance, containment, earliest."
+        )
     return o
 
 
@@ -76,5 +82,7 @@ def _one_of(name: str, value: str, known: tuple[str, ...]) -> int:
 
 def _whole(name: str, value: int, least: int, most: int = 2**31 - 1) -> int:
     if isinstance(value, bool) or int(value) != value or not least <= value <= most:
-        raise ValueError(f"{name} = {value!r} must be a whole number of {least} or more{f', at most {most}' if most < 2**31 - 1 else ''}.")
+        raise ValueError(
+            f"{name} = {value!r} must be a whole number of {least} or more{f', at most {most}' if most < 2**31 - 1 else ''}."
+        )
     return int(value)

@@ -26,7 +26,8 @@ struct Bodies {
   ofg::Mesh<T> a, b;
   ofg::Workspace<T> w;
   explicit Bodies(const Cell& c)
-      : a(c.a.v.data(), c.a.v.size() / 3, c.a.f.data(), c.a.f.size() / 3, true), b(c.b.v.data(), c.b.v.size() / 3, c.b.f.data(), c.b.f.size() / 3, true) {
+      : a(c.a.v.data(), c.a.v.size() / 3, c.a.f.data(), c.a.f.size() / 3, true),
+        b(c.b.v.data(), c.b.v.size() / 3, c.b.f.data(), c.b.f.size() / 3, true) {
     w.reserve(a, b);
   }
 };
@@ -37,7 +38,8 @@ Timed ofg_method(const std::string& name, const std::shared_ptr<Bodies<T>>& bodi
             long hits = 0;
             for (std::size_t i = 0; i < c.poses.size(); i += 14) {
               const double* p = &c.poses[i];
-              const ofg::Track track({{p[0], p[1], p[2], p[3]}, {p[4], p[5], p[6]}}, {{p[7], p[8], p[9], p[10]}, {p[11], p[12], p[13]}});
+              const ofg::Track track({{p[0], p[1], p[2], p[3]}, {p[4], p[5], p[6]}},
+                                     {{p[7], p[8], p[9], p[10]}, {p[11], p[12], p[13]}});
               hits += ofg::overlap<Last>(bodies->a, bodies->b, track, o, bodies->w).hit;
             }
             return hits;
@@ -99,7 +101,8 @@ int main(int argc, char** argv) {
       for (const auto& method : methods) {
         const auto from = std::chrono::steady_clock::now();
         const long hits = method.ask_all(cell);
-        const double ns = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - from).count() / double(cell.size());
+        const double ns =
+            std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - from).count() / double(cell.size());
         if (round >= 0) std::printf("%s,%s,%d,%.1f,%ld\n", cell.name.c_str(), method.name.c_str(), round, ns, hits);
       }
     std::fflush(stdout);

@@ -7,12 +7,13 @@
 
 #include "bench.hpp"
 
-// Its two distance solvers on hulls without margin. The pair detector needs its penetration solver: without it 3 to 30 % of shallow
-// overlaps come out as distances.
+// Its two distance solvers on hulls without margin. The pair detector needs its penetration solver: without it 3 to 30 % of
+// shallow overlaps come out as distances.
 std::vector<Timed> bullet_methods(const Cell& cell) {
   const auto shape = [](const Hull& h) {
     auto s = std::make_shared<btConvexHullShape>();
-    for (std::size_t i = 0; i < h.v.size(); i += 3) s->addPoint(btVector3(btScalar(h.v[i]), btScalar(h.v[i + 1]), btScalar(h.v[i + 2])), false);
+    for (std::size_t i = 0; i < h.v.size(); i += 3)
+      s->addPoint(btVector3(btScalar(h.v[i]), btScalar(h.v[i + 1]), btScalar(h.v[i + 2])), false);
     s->setMargin(0);
     s->recalcLocalAabb();
     return s;

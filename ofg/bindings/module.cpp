@@ -30,7 +30,8 @@ struct Solid {
   }
 
   template <class T>
-  static void fill(ofg::Body<T>& body, const Doubles& v, const Ints& f, bool convex, const std::vector<Doubles>& pv, const std::vector<Ints>& pf) {
+  static void fill(ofg::Body<T>& body, const Doubles& v, const Ints& f, bool convex, const std::vector<Doubles>& pv,
+                   const std::vector<Ints>& pf) {
     body.whole = ofg::Mesh<T>(v.data(), v.shape(0), f.data(), f.shape(0), convex);
     for (std::size_t i = 0; i < pv.size(); ++i)
       body.pieces.emplace_back(pv[i].data(), pv[i].shape(0), pf[i].data(), pf[i].shape(0), true);
@@ -39,17 +40,21 @@ struct Solid {
 
   template <class T>
   const ofg::Body<T>& as() const {
-    if constexpr (std::is_same_v<T, float>) return coarse;
-    else return fine;
+    if constexpr (std::is_same_v<T, float>)
+      return coarse;
+    else
+      return fine;
   }
 };
 
 enum class Algorithm { ofg, brute_force };
 
 template <class T>
-ofg::Answer ask(Algorithm how, bool moving, const Solid& a, const Solid& b, const ofg::Track& track, const ofg::Options& o, ofg::Workspace<T>& w) {
+ofg::Answer ask(Algorithm how, bool moving, const Solid& a, const Solid& b, const ofg::Track& track, const ofg::Options& o,
+                ofg::Workspace<T>& w) {
   const auto &ba = a.as<T>(), &bb = b.as<T>();
-  if (how == Algorithm::brute_force) return moving ? ofg::brute_force::sweep(ba, bb, track) : ofg::brute_force::overlap(ba, bb, track);
+  if (how == Algorithm::brute_force)
+    return moving ? ofg::brute_force::sweep(ba, bb, track) : ofg::brute_force::overlap(ba, bb, track);
   return moving ? ofg::sweep(ba, bb, track, o, w) : ofg::overlap(ba, bb, track, o, w);
 }
 
@@ -73,17 +78,30 @@ struct Prepared {
     return shared;
   }
 
-  Prepared(nb::object oa, nb::object ob, Doubles poses, Doubles motions, const ofg::Options& o, int how_, bool moving_, bool single_)
-      : keep_a(oa), keep_b(ob), a(nb::cast<const Solid&>(oa)), b(nb::cast<const Solid&>(ob)), pose_a(pose_of(poses.data())),
-        pose_b(pose_of(poses.data() + 7)), motion_a(motion_of(motions.data())), motion_b(motion_of(motions.data() + 7)), options(o),
-        how(Algorithm(how_)), moving(moving_), single(single_) {
-    if (single) workspace<float>().reserve(a.coarse, b.coarse);
-    else workspace<double>().reserve(a.fine, b.fine);
+  Prepared(nb::object oa, nb::object ob, Doubles poses, Doubles motions, const ofg::Options& o, int how_, bool moving_,
+           bool single_)
+      : keep_a(oa),
+        keep_b(ob),
+        a(nb::cast<const Solid&>(oa)),
+        b(nb::cast<const Solid&>(ob)),
+        pose_a(pose_of(poses.data())),
+        pose_b(pose_of(poses.data() + 7)),
+        motion_a(motion_of(motions.data())),
+        motion_b(motion_of(motions.data() + 7)),
+        options(o),
+        how(Algorithm(how_)),
+        moving(moving_),
+        single(single_) {
+    if (single)
+      workspace<float>().reserve(a.coarse, b.coarse);
+    else
+      workspace<double>().reserve(a.fine, b.fine);
   }
 
   ofg::Answer answer() {
     const ofg::Track track(pose_a, pose_b, motion_a, motion_b);
-    return single ? ask(how, moving, a, b, track, options, workspace<float>()) : ask(how, moving, a, b, track, options, workspace<double>());
+    return single ? ask(how, moving, a, b, track, options, workspace<float>())
+                  : ask(how, moving, a, b, track, options, workspace<double>());
   }
   nb::tuple call() {
     const ofg::Answer x = answer();
@@ -93,13 +111,14 @@ struct Prepared {
 
 constexpr int columns = 8;
 void count(const ofg::Counts& c, std::int64_t* to) {
-  const std::int64_t all[columns] = {c.spheres, c.distances, c.face_pairs, c.edge_faces, c.edge_pairs, c.full_tests, c.evaluated, c.steps};
+  const std::int64_t all[columns] = {c.spheres,    c.distances,  c.face_pairs, c.edge_faces,
+                                     c.edge_pairs, c.full_tests, c.evaluated,  c.steps};
   std::copy(all, all + columns, to);
 }
 
 template <class T>
-void ask_range(Algorithm how, bool moving, const Solid& a, const Solid& b, const double* pa, const double* pb, const double* ma, const double* mb,
-               const ofg::Options& o, std::size_t from, std::size_t to, ofg::Answer* out) {
+void ask_range(Algorithm how, bool moving, const Solid& a, const Solid& b, const double* pa, const double* pb, const double* ma,
+               const double* mb, const ofg::Options& o, std::size_t from, std::size_t to, ofg::Answer* out) {
   ofg::Workspace<T> w;
   w.reserve(a.as<T>(), b.as<T>());
   for (std::size_t i = from; i < to; ++i) {
@@ -117,8 +136,8 @@ nb::ndarray<nb::numpy, T> array(std::vector<std::size_t> shape, T*& data) {
   return nb::ndarray<nb::numpy, T>(data, shape.size(), shape.data(), owner);
 }
 
-nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubles ma, Doubles mb, const ofg::Options& o, int how, bool moving,
-                   bool single, int threads) {
+nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubles ma, Doubles mb, const ofg::Options& o, int how,
+                   bool moving, bool single, int threads) {
   const std::size_t n = pa.shape(0);
   std::vector<ofg::Answer> answers(n);
   {
@@ -127,7 +146,8 @@ nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubl
     const std::size_t parts = std::min<std::size_t>(std::max(threads, 1), std::max<std::size_t>(n, 1));
     std::vector<std::thread> others;
     const auto part = [&](std::size_t i) {
-      range(Algorithm(how), moving, a, b, pa.data(), pb.data(), ma.data(), mb.data(), o, n * i / parts, n * (i + 1) / parts, answers.data());
+      range(Algorithm(how), moving, a, b, pa.data(), pb.data(), ma.data(), mb.data(), o, n * i / parts, n * (i + 1) / parts,
+            answers.data());
     };
     for (std::size_t i = 1; i < parts; ++i) others.emplace_back(part, i);
     part(0);
@@ -172,20 +192,28 @@ nb::ndarray<nb::numpy, bool> triangles_meet(Doubles pairs) {
 }
 
 NB_MODULE(_core, m) {
-  m.def("set_isa", [](int isa) { return ofg::set_isa(ofg::Isa(isa)); }, "isa"_a, "0: SSE2, 1: AVX2, 2: AVX-512. False where the machine lacks it.");
+  m.def(
+      "set_isa", [](int isa) { return ofg::set_isa(ofg::Isa(isa)); }, "isa"_a,
+      "0: SSE2, 1: AVX2, 2: AVX-512. False where the machine lacks it.");
   m.def("widest_isa", [] { return int(ofg::widest_isa()); });
   m.def("triangles_meet", &triangles_meet<double>, "pairs"_a);
   m.def("triangles_meet_float", &triangles_meet<float>, "pairs"_a);
   nb::class_<Solid>(m, "Solid")
-      .def(nb::init<Doubles, Ints, bool, const std::vector<Doubles>&, const std::vector<Ints>&>(), "vertices"_a, "faces"_a, "convex"_a,
-           "piece_vertices"_a, "piece_faces"_a);
+      .def(nb::init<Doubles, Ints, bool, const std::vector<Doubles>&, const std::vector<Ints>&>(), "vertices"_a, "faces"_a,
+           "convex"_a, "piece_vertices"_a, "piece_faces"_a);
   nb::class_<ofg::Options>(m, "Options")
       .def(nb::init<>())
       .def_rw("k", &ofg::Options::k)
-      .def_prop_rw("toi", [](const ofg::Options& o) { return int(o.toi); }, [](ofg::Options& o, int v) { o.toi = ofg::Toi(v); })
-      .def_prop_rw("broad", [](const ofg::Options& o) { return int(o.broad); }, [](ofg::Options& o, int v) { o.broad = ofg::Broad(v); })
-      .def_prop_rw("concave", [](const ofg::Options& o) { return int(o.concave); }, [](ofg::Options& o, int v) { o.concave = ofg::Concave(v); })
-      .def_prop_rw("nearest", [](const ofg::Options& o) { return int(o.nearest); }, [](ofg::Options& o, int v) { o.nearest = ofg::Nearest(v); })
+      .def_prop_rw(
+          "toi", [](const ofg::Options& o) { return int(o.toi); }, [](ofg::Options& o, int v) { o.toi = ofg::Toi(v); })
+      .def_prop_rw(
+          "broad", [](const ofg::Options& o) { return int(o.broad); }, [](ofg::Options& o, int v) { o.broad = ofg::Broad(v); })
+      .def_prop_rw(
+          "concave", [](const ofg::Options& o) { return int(o.concave); },
+          [](ofg::Options& o, int v) { o.concave = ofg::Concave(v); })
+      .def_prop_rw(
+          "nearest", [](const ofg::Options& o) { return int(o.nearest); },
+          [](ofg::Options& o, int v) { o.nearest = ofg::Nearest(v); })
       .def_rw("iterations", &ofg::Options::iterations)
       .def_rw("adaptive_k", &ofg::Options::adaptive_k)
       .def_rw("both_vertices", &ofg::Options::both_vertices)
@@ -195,9 +223,9 @@ NB_MODULE(_core, m) {
       .def_rw("containment", &ofg::Options::containment)
       .def_rw("earliest", &ofg::Options::earliest);
   nb::class_<Prepared>(m, "Prepared")
-      .def(nb::init<nb::object, nb::object, Doubles, Doubles, const ofg::Options&, int, bool, bool>(), "a"_a, "b"_a, "poses"_a, "motions"_a,
-           "options"_a, "algorithm"_a, "moving"_a, "single"_a)
+      .def(nb::init<nb::object, nb::object, Doubles, Doubles, const ofg::Options&, int, bool, bool>(), "a"_a, "b"_a, "poses"_a,
+           "motions"_a, "options"_a, "algorithm"_a, "moving"_a, "single"_a)
       .def("__call__", &Prepared::call, "(hit, time)");
-  m.def("ask_many", &ask_many, "a"_a, "b"_a, "poses_a"_a, "poses_b"_a, "motions_a"_a, "motions_b"_a, "options"_a, "algorithm"_a, "moving"_a,
-        "single"_a, "threads"_a);
+  m.def("ask_many", &ask_many, "a"_a, "b"_a, "poses_a"_a, "poses_b"_a, "motions_a"_a, "motions_b"_a, "options"_a, "algorithm"_a,
+        "moving"_a, "single"_a, "threads"_a);
 }

@@ -34,6 +34,7 @@ int main() {
   const ofg::Motion motion{{6, 0, 0}, {0, 0, 1}, 3.0};  // flies along x, turning 3 radians about z
   for (const ofg::Options& options : {as_written, repaired}) {
     const ofg::Answer answer = ofg::sweep(rod, wall, {start, origin, motion}, options, memory);
-    std::printf("step: %s at %.6f, face %d on face %d\n", answer.hit ? "hit" : "clear", answer.time, answer.face_a, answer.face_b);
+    std::printf("step: %s at %.6f, face %d on face %d\n", answer.hit ? "hit" : "clear", answer.time, answer.face_a,
+                answer.face_b);
   }
 }

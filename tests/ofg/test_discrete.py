@@ -41,8 +41,14 @@ def test_scaling_by_a_power_of_two_changes_nothing(hulls, scale):
         a, b = (Body.mesh(x.vertices, x.faces) for x in (a, b))  # the same faces in the same order
         pa, pb = rows_of_poses(rng, 100, 0), rows_of_poses(rng, 100, 1)
         want = ofg.discrete_many(a, b, pa, pb, concave="undivided")
-        got = ofg.discrete_many(sa, sb, pa * np.r_[1, 1, 1, 1, [scale] * 3], pb * np.r_[1, 1, 1, 1, [scale] * 3], concave="undivided")
-        assert np.array_equal(got.hit, want.hit) and np.array_equal(got.faces, want.faces) and np.array_equal(got.counts, want.counts)
+        got = ofg.discrete_many(
+            sa, sb, pa * np.r_[1, 1, 1, 1, [scale] * 3], pb * np.r_[1, 1, 1, 1, [scale] * 3], concave="undivided"
+        )
+        assert (
+            np.array_equal(got.hit, want.hit)
+            and np.array_equal(got.faces, want.faces)
+            and np.array_equal(got.counts, want.counts)
+        )
 
 
 def test_operations_are_as_the_article_claims(hulls):

@@ -68,7 +68,9 @@ def test_blocks_select_what_a_full_sort_selects(hulls):
         for _ in range(40):
             pose = ofg.Pose(position=rng.uniform(-2, 2, 3))
             centres = [x.vertices[x.faces].mean(axis=1) for x in (a, b)]
-            order_a = np.argsort(np.linalg.norm(centres[0] - (b.vertices.mean(axis=0) - pose.position), axis=1), kind="stable")[:8]
+            order_a = np.argsort(np.linalg.norm(centres[0] - (b.vertices.mean(axis=0) - pose.position), axis=1), kind="stable")[
+                :8
+            ]
             selected = centres[0][order_a].mean(axis=0) + pose.position
             order_b = np.argsort(np.linalg.norm(centres[1] - selected, axis=1), kind="stable")[:8]
             answer = ofg.discrete(a, b, pose)

@@ -37,8 +37,10 @@ def test_parameters_reach_the_core(cube):
 
 def test_what_a_method_declares_follows_its_parameters():
     method = ofg_file.METHODS[0]
-    assert [(m.solid, m.configuration) for m in (method(), method(k=64, concave="all-pairs"), method(repairs="all"), method(adaptive_k=True))] == [
-        (False, "as written"), (False, "as written"), (True, "best effort"), (False, "alternative")]
+    assert [
+        (m.solid, m.configuration)
+        for m in (method(), method(k=64, concave="all-pairs"), method(repairs="all"), method(adaptive_k=True))
+    ] == [(False, "as written"), (False, "as written"), (True, "best effort"), (False, "alternative")]
 
 
 def test_a_prepared_query_may_be_asked_again(cube):

@@ -12,7 +12,10 @@ CMAKE = shutil.which("cmake", path=str(Path(sys.executable).parent)) or shutil.w
 
 
 def build_and_run(source: Path, target: str, folder: Path) -> str:
-    for command in ([CMAKE, "-S", source, "-B", folder, "-DCMAKE_BUILD_TYPE=Debug"], [CMAKE, "--build", folder, "--target", target]):
+    for command in (
+        [CMAKE, "-S", source, "-B", folder, "-DCMAKE_BUILD_TYPE=Debug"],
+        [CMAKE, "--build", folder, "--target", target],
+    ):
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stdout + done.stderr
     return subprocess.run([folder / target], capture_output=True, text=True, check=True, timeout=60).stdout

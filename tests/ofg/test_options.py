@@ -8,11 +8,23 @@ from ofg import Pose
 from ofg.options import REPAIRS, core_options, repair_options
 
 
-@pytest.mark.parametrize("options, word", [
-    ({"k": 0}, "k = 0"), ({"k": 2.5}, "k = 2.5"), ({"toi": "newton"}, "velocity"), ({"broad": "sap"}, "swept"), ({"concave": "hull"}, "undivided"),
-    ({"selection": "nearest"}, "centroid"), ({"selections": 4}, "at most 3"), ({"iterations": 0}, "iterations"), ({"arc_tolerance": -1.0}, "arc_tolerance"),
-    ({"repairs": "all-but-k"}, "adaptive-k"), ({"repairs": "arcs+magic"}, "magic"), ({"precision": "half"}, "double"),
-])
+@pytest.mark.parametrize(
+    "options, word",
+    [
+        ({"k": 0}, "k = 0"),
+        ({"k": 2.5}, "k = 2.5"),
+        ({"toi": "newton"}, "velocity"),
+        ({"broad": "sap"}, "swept"),
+        ({"concave": "hull"}, "undivided"),
+        ({"selection": "nearest"}, "centroid"),
+        ({"selections": 4}, "at most 3"),
+        ({"iterations": 0}, "iterations"),
+        ({"arc_tolerance": -1.0}, "arc_tolerance"),
+        ({"repairs": "all-but-k"}, "adaptive-k"),
+        ({"repairs": "arcs+magic"}, "magic"),
+        ({"precision": "half"}, "double"),
+    ],
+)
 def test_unknown_values_name_the_option_and_what_there_is(cube, options, word):
     with pytest.raises(ValueError, match=word):
         ofg.discrete(cube, cube, **options)
@@ -23,9 +35,15 @@ def test_unknown_options_are_refused(cube):
         ofg.discrete(cube, cube, adaptive=True)
 
 
-@pytest.mark.parametrize("poses, word", [
-    (np.zeros((3, 6)), "shape"), (np.full((3, 7), np.nan), "finite"), (np.zeros((3, 7)), "zero quaternion"), ([(1, 2)], "Pose"),
-])
+@pytest.mark.parametrize(
+    "poses, word",
+    [
+        (np.zeros((3, 6)), "shape"),
+        (np.full((3, 7), np.nan), "finite"),
+        (np.zeros((3, 7)), "zero quaternion"),
+        ([(1, 2)], "Pose"),
+    ],
+)
 def test_bad_poses_are_refused(cube, poses, word):
     with pytest.raises((ValueError, TypeError), match=word):
         ofg.discrete_many(cube, cube, poses, Pose())
@@ -42,7 +60,18 @@ def test_no_poses_give_no_answers(cube):
 
 def test_every_repair_is_a_switch_of_its_own():
     as_written = core_options()
-    fields = ("broad", "concave", "nearest", "selections", "arc_tolerance", "adaptive_k", "both_vertices", "edge_edge", "containment", "earliest")
+    fields = (
+        "broad",
+        "concave",
+        "nearest",
+        "selections",
+        "arc_tolerance",
+        "adaptive_k",
+        "both_vertices",
+        "edge_edge",
+        "containment",
+        "earliest",
+    )
     for name in REPAIRS:
         alone = core_options(repairs=name)
         changed = [f for f in fields if getattr(alone, f) != getattr(as_written, f)]

@@ -114,7 +114,9 @@ def test_with_all_repairs_sweeps_find_all_that_brute_force_finds_at_any_time(hul
         for i in range(40):
             motion = Motion(m[i, :3], m[i, 3:6], m[i, 6])
             start = Pose(pa[i, :4], pa[i, 4:])
-            sampled = ofg.discrete_many(a, b, [motion.pose_at(start, t) for t in times], Pose(pb[i, :4], pb[i, 4:]), k=10**6, containment=True)
+            sampled = ofg.discrete_many(
+                a, b, [motion.pose_at(start, t) for t in times], Pose(pb[i, :4], pb[i, 4:]), k=10**6, containment=True
+            )
             if sampled.hit.any():
                 hits += 1
                 assert got.hit[i] and got.time[i] <= times[np.argmax(sampled.hit)] + 1e-9

@@ -59,7 +59,10 @@ def test_agrees_with_exact_arithmetic_on_small_integers(s, t):
 
 
 @settings(max_examples=200, deadline=None)
-@given(st.tuples(*[st.tuples(st.integers(-3, 3), st.integers(-3, 3), st.just(0))] * 3), st.tuples(*[st.tuples(st.integers(-3, 3), st.integers(-3, 3), st.just(0))] * 3))
+@given(
+    st.tuples(*[st.tuples(st.integers(-3, 3), st.integers(-3, 3), st.just(0))] * 3),
+    st.tuples(*[st.tuples(st.integers(-3, 3), st.integers(-3, 3), st.just(0))] * 3),
+)
 def test_agrees_with_exact_arithmetic_in_one_plane(s, t):
     assert meets(s, t) == exact(s, t)
 
@@ -70,21 +73,29 @@ def test_order_of_corners_and_of_triangles_changes_nothing(s, t, i, j):
     assert meets(s, t) == meets(t, s) == meets([s[n] for n in i], [t[n] for n in j])
 
 
-@pytest.mark.parametrize("name, s, t, want", [
-    ("the same", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 0, 0), (1, 0, 0), (0, 1, 0)], True),
-    ("one corner shared", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 0, 0), (-1, 0, 1), (0, -1, 1)], True),
-    ("one inside the other, one plane", [(0, 0, 0), (9, 0, 0), (0, 9, 0)], [(1, 1, 0), (2, 1, 0), (1, 2, 0)], True),
-    ("parallel planes", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 0, 1e-9), (1, 0, 1e-9), (0, 1, 1e-9)], False),
-    ("edge grazes from above", [(0, 0, 0), (4, 0, 0), (0, 4, 0)], [(1, 1, 1e-12), (2, 1, 1e-12), (1, 1, 1)], False),
-    ("edge passes just below", [(0, 0, 0), (4, 0, 0), (0, 4, 0)], [(1, 1, -1e-12), (2, 1, 1e-12), (1, 1, 1)], True),
-    ("point on a face", [(1, 1, 0)] * 3, [(0, 0, 0), (4, 0, 0), (0, 4, 0)], True),
-    ("point off a face", [(1, 1, 1e-9)] * 3, [(0, 0, 0), (4, 0, 0), (0, 4, 0)], False),
-    ("two points", [(0, 0, 0)] * 3, [(0, 0, 1)] * 3, False),
-    ("segments cross", [(-1, 0, 0), (1, 0, 0), (0, 0, 0)], [(0, -1, 0), (0, 1, 0), (0, 0, 0)], True),
-    ("segments in one line, apart", [(0, 0, 0), (1, 0, 0), (0.5, 0, 0)], [(2, 0, 0), (3, 0, 0), (2.5, 0, 0)], False),
-    ("parallel segments", [(0, 0, 0), (1, 0, 0), (0.5, 0, 0)], [(0, 1, 0), (1, 1, 0), (0.5, 1, 0)], False),
-    ("needles in one plane, apart", [(0, 0, 0), (1, 0, 0), (0.5, 1e-17, 0)], [(0, 1e-3, 0), (1, 2e-3, 0), (0.5, 1.5e-3, 1e-18)], False),
-])
+@pytest.mark.parametrize(
+    "name, s, t, want",
+    [
+        ("the same", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 0, 0), (1, 0, 0), (0, 1, 0)], True),
+        ("one corner shared", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 0, 0), (-1, 0, 1), (0, -1, 1)], True),
+        ("one inside the other, one plane", [(0, 0, 0), (9, 0, 0), (0, 9, 0)], [(1, 1, 0), (2, 1, 0), (1, 2, 0)], True),
+        ("parallel planes", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 0, 1e-9), (1, 0, 1e-9), (0, 1, 1e-9)], False),
+        ("edge grazes from above", [(0, 0, 0), (4, 0, 0), (0, 4, 0)], [(1, 1, 1e-12), (2, 1, 1e-12), (1, 1, 1)], False),
+        ("edge passes just below", [(0, 0, 0), (4, 0, 0), (0, 4, 0)], [(1, 1, -1e-12), (2, 1, 1e-12), (1, 1, 1)], True),
+        ("point on a face", [(1, 1, 0)] * 3, [(0, 0, 0), (4, 0, 0), (0, 4, 0)], True),
+        ("point off a face", [(1, 1, 1e-9)] * 3, [(0, 0, 0), (4, 0, 0), (0, 4, 0)], False),
+        ("two points", [(0, 0, 0)] * 3, [(0, 0, 1)] * 3, False),
+        ("segments cross", [(-1, 0, 0), (1, 0, 0), (0, 0, 0)], [(0, -1, 0), (0, 1, 0), (0, 0, 0)], True),
+        ("segments in one line, apart", [(0, 0, 0), (1, 0, 0), (0.5, 0, 0)], [(2, 0, 0), (3, 0, 0), (2.5, 0, 0)], False),
+        ("parallel segments", [(0, 0, 0), (1, 0, 0), (0.5, 0, 0)], [(0, 1, 0), (1, 1, 0), (0.5, 1, 0)], False),
+        (
+            "needles in one plane, apart",
+            [(0, 0, 0), (1, 0, 0), (0.5, 1e-17, 0)],
+            [(0, 1e-3, 0), (1, 2e-3, 0), (0.5, 1.5e-3, 1e-18)],
+            False,
+        ),
+    ],
+)
 def test_known_pairs(name, s, t, want):
     assert meets(s, t) is want, name
 

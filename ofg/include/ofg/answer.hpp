@@ -7,14 +7,14 @@ namespace ofg {
 
 // Operations done, by kind, so that the article's claims can be counted.
 struct Counts {
-  std::int64_t spheres = 0;      // pairs of spheres compared: steps 1 and 6
-  std::int64_t distances = 0;    // from a point to a face or to a piece: steps 2 and 4
-  std::int64_t face_pairs = 0;   // pairs of faces settled: step 8
-  std::int64_t edge_faces = 0;   // virtual edges against faces
-  std::int64_t edge_pairs = 0;   // moving edges against edges (a repair)
-  std::int64_t full_tests = 0;   // of face_pairs, those that no cheap rejection settled
-  std::int64_t evaluated = 0;    // distances computed to settle `distances`: to boxes of blocks and to faces
-  std::int64_t steps = 0;        // parts the step was cut into, and halvings of a bisection
+  std::int64_t spheres = 0;     // pairs of spheres compared: steps 1 and 6
+  std::int64_t distances = 0;   // from a point to a face or to a piece: steps 2 and 4
+  std::int64_t face_pairs = 0;  // pairs of faces settled: step 8
+  std::int64_t edge_faces = 0;  // virtual edges against faces
+  std::int64_t edge_pairs = 0;  // moving edges against edges (a repair)
+  std::int64_t full_tests = 0;  // of face_pairs, those that no cheap rejection settled
+  std::int64_t evaluated = 0;   // distances computed to settle `distances`: to boxes of blocks and to faces
+  std::int64_t steps = 0;       // parts the step was cut into, and halvings of a bisection
   void add(const Counts& c) {
     spheres += c.spheres, distances += c.distances, face_pairs += c.face_pairs, edge_faces += c.edge_faces;
     edge_pairs += c.edge_pairs, full_tests += c.full_tests, evaluated += c.evaluated, steps += c.steps;

@@ -10,11 +10,13 @@ template <class T>
 struct Box {
   Vec3<T> lo, hi;
   explicit Box(const Triangle<T>& t)
-      : lo{std::fmin(t.a.x, std::fmin(t.b.x, t.c.x)), std::fmin(t.a.y, std::fmin(t.b.y, t.c.y)), std::fmin(t.a.z, std::fmin(t.b.z, t.c.z))},
-        hi{std::fmax(t.a.x, std::fmax(t.b.x, t.c.x)), std::fmax(t.a.y, std::fmax(t.b.y, t.c.y)), std::fmax(t.a.z, std::fmax(t.b.z, t.c.z))} {}
+      : lo{std::fmin(t.a.x, std::fmin(t.b.x, t.c.x)), std::fmin(t.a.y, std::fmin(t.b.y, t.c.y)),
+           std::fmin(t.a.z, std::fmin(t.b.z, t.c.z))},
+        hi{std::fmax(t.a.x, std::fmax(t.b.x, t.c.x)), std::fmax(t.a.y, std::fmax(t.b.y, t.c.y)),
+           std::fmax(t.a.z, std::fmax(t.b.z, t.c.z))} {}
   bool apart(const Box& b, T slack) const {
-    return lo.x > b.hi.x + slack || b.lo.x > hi.x + slack || lo.y > b.hi.y + slack || b.lo.y > hi.y + slack || lo.z > b.hi.z + slack ||
-           b.lo.z > hi.z + slack;
+    return lo.x > b.hi.x + slack || b.lo.x > hi.x + slack || lo.y > b.hi.y + slack || b.lo.y > hi.y + slack ||
+           lo.z > b.hi.z + slack || b.lo.z > hi.z + slack;
   }
 };
 

@@ -27,8 +27,14 @@ struct Blocks {
   int faces = 0, count = 0;
 
   BlockView<T> view() const {
-    return {x.data(), y.data(), z.data(), face.data(), {lo[0].data(), lo[1].data(), lo[2].data()}, {hi[0].data(), hi[1].data(), hi[2].data()},
-            faces, count};
+    return {x.data(),
+            y.data(),
+            z.data(),
+            face.data(),
+            {lo[0].data(), lo[1].data(), lo[2].data()},
+            {hi[0].data(), hi[1].data(), hi[2].data()},
+            faces,
+            count};
   }
 
   explicit Blocks(const Points<T>& centres = {}) {
@@ -67,7 +73,8 @@ struct Blocks {
     T most = -1;
     for (const auto* a : axis) {
       T l = (*a)[std::size_t(face[from])], h = l;
-      for (std::size_t i = from; i < to; ++i) l = std::min(l, (*a)[std::size_t(face[i])]), h = std::max(h, (*a)[std::size_t(face[i])]);
+      for (std::size_t i = from; i < to; ++i)
+        l = std::min(l, (*a)[std::size_t(face[i])]), h = std::max(h, (*a)[std::size_t(face[i])]);
       if (h - l > most) most = h - l, longest = a;
     }
     const std::size_t middle = from + ((to - from) / 2 + block_faces - 1) / block_faces * block_faces;

@@ -9,21 +9,21 @@ enum class Concave { object, undivided, all_pairs };
 enum class Nearest { centre, triangle };
 
 struct Options {
-  int k = 8;                           // faces in a selection: the accuracy constant
-  Toi toi = Toi::velocity;             // how a virtual edge's hit is given a time
-  Broad broad = Broad::swept;          // step 1 at the start pose, or with spheres swept along the motion
-  Concave concave = Concave::object;   // which pieces of a concave body are asked
-  int iterations = 20;                 // of the bisection: it ends with a bracket of 2^-iterations of the step
+  int k = 8;                          // faces in a selection: the accuracy constant
+  Toi toi = Toi::velocity;            // how a virtual edge's hit is given a time
+  Broad broad = Broad::swept;         // step 1 at the start pose, or with spheres swept along the motion
+  Concave concave = Concave::object;  // which pieces of a concave body are asked
+  int iterations = 20;                // of the bisection: it ends with a bracket of 2^-iterations of the step
 
   // Repairs of the article's method, each on its own; off as written.
-  Nearest nearest = Nearest::centre;   // select by distance to the face's centre, or to the face itself
-  bool adaptive_k = false;             // k grows until no face left out can reach the other's bounding sphere
-  bool both_vertices = false;          // virtual edges from the vertices of B as well
-  bool edge_edge = false;              // moving edges of A against edges of B
-  int selections = 1;                  // made at the start; 2: and at the end; 3: and where the centres pass closest
-  double arc_tolerance = 0;            // > 0: cut the step so that no chord strays more than this share of A's radius
-  bool containment = false;            // one body inside the other counts
-  bool earliest = false;               // the earliest of all hits instead of the first found
+  Nearest nearest = Nearest::centre;  // select by distance to the face's centre, or to the face itself
+  bool adaptive_k = false;            // k grows until no face left out can reach the other's bounding sphere
+  bool both_vertices = false;         // virtual edges from the vertices of B as well
+  bool edge_edge = false;             // moving edges of A against edges of B
+  int selections = 1;                 // made at the start; 2: and at the end; 3: and where the centres pass closest
+  double arc_tolerance = 0;           // > 0: cut the step so that no chord strays more than this share of A's radius
+  bool containment = false;           // one body inside the other counts
+  bool earliest = false;              // the earliest of all hits instead of the first found
 };
 
 }  // namespace ofg

@@ -26,9 +26,9 @@ bool edges_meet(const Triangle<T>& s0, const Triangle<T>& t0, T slack, Vec3<T>& 
   return !((sliver(s) || sliver(t)) && slivers_apart(s, t, slack));
 }
 
-// Is the plane of one of the selected faces a wall between the selections? `axis`: the normal of the best, from B to A. A plane that one
-// side is in front of is a proposal; that the other side is behind it is tried on its points, because the normal of a sliver
-// is mostly rounding, and a mesh need not be convex.
+// Is the plane of one of the selected faces a wall between the selections? `axis`: the normal of the best, from B to A. A plane
+// that one side is in front of is a proposal; that the other side is behind it is tried on its points, because the normal of a
+// sliver is mostly rounding, and a mesh need not be convex.
 template <class T, class Along>
 bool walled_off(const Selection<T>& a, const Selection<T>& b, T gap, Vec3<T>& axis, Along along) {
   T n[3], m[3];
@@ -37,12 +37,14 @@ bool walled_off(const Selection<T>& a, const Selection<T>& b, T gap, Vec3<T>& ax
   const T of_a = kernels<T>.planes_gap(a.view(), a.padded(), b.cloud(), m);
   if (of_a > gap && separated(axis = {-m[0], -m[1], -m[2]}, gap, along, 1)) return true;
   const bool first = of_b > of_a;
-  if ((first ? of_b : of_a) > -std::numeric_limits<T>::infinity()) axis = first ? Vec3<T>(n[0], n[1], n[2]) : Vec3<T>(-m[0], -m[1], -m[2]);
+  if ((first ? of_b : of_a) > -std::numeric_limits<T>::infinity())
+    axis = first ? Vec3<T>(n[0], n[1], n[2]) : Vec3<T>(-m[0], -m[1], -m[2]);
   return false;
 }
 
-// Step 8: face against face, the nearest first, until two meet. What settles many pairs at once is tried where it is likely to: the
-// planes of the faces before the first row, the axis that kept a pair apart after it, and a search for any plane after the row.
+// Step 8: face against face, the nearest first, until two meet. What settles many pairs at once is tried where it is likely to:
+// the planes of the faces before the first row, the axis that kept a pair apart after it, and a search for any plane after the
+// row.
 template <class T>
 bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Vec3<T> axis, Workspace<T>& w, Answer& answer) {
   const T slack = rounding<T> * scale, gap = 4 * slack;
@@ -114,7 +116,8 @@ bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T
   const CloudView<T> hull_a = a.cloud.view(), hull_b = b.cloud.view();
   static constexpr T zeros[lanes<T>] = {};
   const CloudView<T> origin{zeros, zeros, zeros, lanes<T>};
-  return separated(axis, gap, [&](const Vec3<T>& v) { return to_b(support(hull_a, origin, back * v)) + support(origin, hull_b, v); }, 24);
+  return separated(
+      axis, gap, [&](const Vec3<T>& v) { return to_b(support(hull_a, origin, back * v)) + support(origin, hull_b, v); }, 24);
 }
 
 }  // namespace detail

@@ -34,12 +34,12 @@ class List {
 
 template <class T>
 struct Selection {
-  List<Candidate<T>> near;         // nearest first; equal distances in the order of the faces
-  std::vector<T> x, y, z;          // corners of the same faces where they were placed: all a, then all b, then all c, each padded
-  List<int> vertices, edges;       // of the selected faces, each once, nearest first
+  List<Candidate<T>> near;    // nearest first; equal distances in the order of the faces
+  std::vector<T> x, y, z;     // corners of the same faces where they were placed: all a, then all b, then all c, each padded
+  List<int> vertices, edges;  // of the selected faces, each once, nearest first
   List<int> vertex_face, edge_face;  // a selected face each belongs to
-  Vec3<T> centre;                  // mean of the faces' centres, in the body's own frame
-  T radius = 0;                    // from `centre` to the farthest vertex of the faces, rounded up
+  Vec3<T> centre;                    // mean of the faces' centres, in the body's own frame
+  T radius = 0;                      // from `centre` to the farthest vertex of the faces, rounded up
 
   int size() const { return int(near.size()); }
   int padded() const { return (size() + lanes<T> - 1) / lanes<T> * lanes<T>; }
@@ -70,16 +70,19 @@ struct Workspace {
 
   void reserve(const Mesh<T>& ma, const Mesh<T>& mb) {
     const std::size_t f = std::max(ma.faces.size(), mb.faces.size()) + 2 * block_faces;
-    const std::size_t v = std::max(ma.vertices.x.size(), mb.vertices.x.size()), e = std::max(ma.edges.size(), mb.edges.size()) + 2 * block_faces;
+    const std::size_t v = std::max(ma.vertices.x.size(), mb.vertices.x.size()),
+                      e = std::max(ma.edges.size(), mb.edges.size()) + 2 * block_faces;
     if (f <= seen_face.size() && v <= seen_vertex.size() && e <= seen_edge.size()) return;
     const auto grow = [](auto& vector, std::size_t n) { vector.resize(std::max(n, vector.size())); };
     for (auto* s : {&a, &b}) {
-      s->near.reserve(f + most_ranked), s->vertices.reserve(v), s->vertex_face.reserve(v), s->edges.reserve(e), s->edge_face.reserve(e);
+      s->near.reserve(f + most_ranked), s->vertices.reserve(v), s->vertex_face.reserve(v), s->edges.reserve(e),
+          s->edge_face.reserve(e);
       grow(s->x, 6 * f), grow(s->y, 6 * f), grow(s->z, 6 * f);
     }
     candidates.reserve(f + most_ranked);
     grow(seen_face, f), grow(seen_vertex, v), grow(seen_edge, e);
-    grow(scratch, f + most_ranked), grow(scratch_bound, f), grow(list, f), grow(ids, f + most_ranked), grow(flags, std::max(f, e));
+    grow(scratch, f + most_ranked), grow(scratch_bound, f), grow(list, f), grow(ids, f + most_ranked),
+        grow(flags, std::max(f, e));
     for (auto& side : box) grow(side, e);
   }
   void reserve(const Body<T>& ba, const Body<T>& bb) {
@@ -118,8 +121,8 @@ void nearest_centres(const Mesh<T>& m, const Vec3<T>& point, int k, Workspace<T>
   if (int(found.size()) > k) k_nearest(found, k);
 }
 
-// By distance to the faces themselves. A face is no nearer than its centre less its radius, and the k with the nearest centres bound the
-// k-th distance, so most faces are passed over; those within `reach` never are.
+// By distance to the faces themselves. A face is no nearer than its centre less its radius, and the k with the nearest centres
+// bound the k-th distance, so most faces are passed over; those within `reach` never are.
 template <class T>
 void nearest_triangles(const Mesh<T>& m, const Vec3<T>& p, int k, T reach, Workspace<T>& w, Counts& counts) {
   T limit = std::numeric_limits<T>::infinity();
@@ -153,7 +156,8 @@ void all_centres(const Mesh<T>& m, const Vec3<T>& p, Workspace<T>& w, Counts& co
 // No point of the face is within `reach` of the point.
 template <class T>
 bool out_of_reach(const Mesh<T>& m, const Candidate<T>& c, T reach, Nearest nearest) {
-  const T far = reach + rounding<T> * (m.extent + reach) + (nearest == Nearest::centre ? m.face_radius[std::size_t(c.face)] : T(0));
+  const T far =
+      reach + rounding<T> * (m.extent + reach) + (nearest == Nearest::centre ? m.face_radius[std::size_t(c.face)] : T(0));
   return c.distance > far * far;
 }
 
@@ -183,8 +187,8 @@ void bound(const Mesh<T>& m, Selection<T>& s) {
 
 }  // namespace detail
 
-// The k faces nearest to each of `points` (in the mesh's frame), and their corners there. With adaptive k also every face that comes
-// within `reach` of one of them.
+// The k faces nearest to each of `points` (in the mesh's frame), and their corners there. With adaptive k also every face that
+// comes within `reach` of one of them.
 template <class T>
 void select(const Mesh<T>& m, const Vec3<T>* points, int n_points, const Options& o, T reach, Workspace<T>& w, Selection<T>& s,
             Counts& counts) {
@@ -202,8 +206,10 @@ void select(const Mesh<T>& m, const Vec3<T>* points, int n_points, const Options
     s.near.push_back(x);
   };
   for (int i = 0; i < n_points; ++i) {
-    if (o.nearest == Nearest::triangle) detail::nearest_triangles(m, points[i], o.k, o.adaptive_k ? reach : T(0), w, counts);
-    else detail::all_centres(m, points[i], w, counts);
+    if (o.nearest == Nearest::triangle)
+      detail::nearest_triangles(m, points[i], o.k, o.adaptive_k ? reach : T(0), w, counts);
+    else
+      detail::all_centres(m, points[i], w, counts);
     if (o.adaptive_k)
       for (const auto& x : w.candidates)
         if (!detail::out_of_reach(m, x, reach, o.nearest)) take(x);
@@ -217,8 +223,8 @@ void select(const Mesh<T>& m, const Vec3<T>* points, int n_points, const Options
 // Moves the gathered corners to B's frame.
 template <class T>
 void move(const Transform<T>& to_b, Selection<T>& s, int copy = 0) {
-  const T rows[9] = {to_b.r.row[0].x, to_b.r.row[0].y, to_b.r.row[0].z, to_b.r.row[1].x, to_b.r.row[1].y, to_b.r.row[1].z,
-                     to_b.r.row[2].x, to_b.r.row[2].y, to_b.r.row[2].z};
+  const T rows[9] = {to_b.r.row[0].x, to_b.r.row[0].y, to_b.r.row[0].z, to_b.r.row[1].x, to_b.r.row[1].y,
+                     to_b.r.row[1].z, to_b.r.row[2].x, to_b.r.row[2].y, to_b.r.row[2].z};
   const T shift[3] = {to_b.p.x, to_b.p.y, to_b.p.z};
   const int n = 3 * s.padded();
   kernels<T>.transform(s.x.data() + copy * n, s.y.data() + copy * n, s.z.data() + copy * n, n, rows, shift);

@@ -1,4 +1,5 @@
-// Is there a plane with one set of points on one side and another on the other? A plane found is a proof; none found says nothing.
+// Is there a plane with one set of points on one side and another on the other? A plane found is a proof; none found says
+// nothing.
 #pragma once
 #include "simd/kernels.hpp"
 
@@ -29,8 +30,8 @@ inline Vec3<T> support(const CloudView<T>& a, const CloudView<T>& b, const Vec3<
 
 namespace detail {
 
-// The point nearest to the origin of a simplex of up to four points, and the points that span it, kept in place. Ericson, Real-Time
-// Collision Detection, 2005, sections 5.1.2, 5.1.5, 5.1.6. Returns the origin for a tetrahedron that holds it.
+// The point nearest to the origin of a simplex of up to four points, and the points that span it, kept in place. Ericson,
+// Real-Time Collision Detection, 2005, sections 5.1.2, 5.1.5, 5.1.6. Returns the origin for a tetrahedron that holds it.
 template <class T>
 struct Simplex {
   Vec3<T> p[4];
@@ -63,7 +64,8 @@ struct Simplex {
     const T vb = d5 * d2 - d1 * d6;
     if (vb <= 0 && d2 >= 0 && d6 <= 0) return p[1] = c, n = 2, a + ac * (d2 / (d2 - d6));
     const T va = d3 * d6 - d5 * d4;
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return p[0] = b, p[1] = c, n = 2, b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+      return p[0] = b, p[1] = c, n = 2, b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
     const T sum = va + vb + vc;
     return sum > 0 ? a + ab * (vb / sum) + ac * (vc / sum) : (n = 1, a);
   }
@@ -88,8 +90,8 @@ struct Simplex {
 
 }  // namespace detail
 
-// Searches for a plane that keeps two sets apart by more than `gap`, along `axis` first and last found, from the second set to the
-// first (Gilbert, Johnson, Keerthi 1988). `least_of(axis)` returns the point of (first - second) least along an axis.
+// Searches for a plane that keeps two sets apart by more than `gap`, along `axis` first and last found, from the second set to
+// the first (Gilbert, Johnson, Keerthi 1988). `least_of(axis)` returns the point of (first - second) least along an axis.
 template <class T, class Least>
 bool separated(Vec3<T>& axis, T gap, Least least_of, int iterations = 12) {
   detail::Simplex<T> s;

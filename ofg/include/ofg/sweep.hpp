@@ -33,11 +33,12 @@ struct Contact {
   int face_a = -1, face_b = -1;
 };
 
-// Virtual edges: the chords of the selected vertices of `m`, from `start` to `end`, against the other's selected faces, all in the
-// frame of the other. Stops at the first hit, or finds the earliest.
+// Virtual edges: the chords of the selected vertices of `m`, from `start` to `end`, against the other's selected faces, all in
+// the frame of the other. Stops at the first hit, or finds the earliest.
 template <class T>
-bool virtual_edges_meet(const Mesh<T>& m, const Selection<T>& s, const Transform<T>& start, const Transform<T>& end, const Selection<T>& other,
-                        T scale, bool swapped, bool earliest, Workspace<T>& w, Contact& contact, Counts& counts) {
+bool virtual_edges_meet(const Mesh<T>& m, const Selection<T>& s, const Transform<T>& start, const Transform<T>& end,
+                        const Selection<T>& other, T scale, bool swapped, bool earliest, Workspace<T>& w, Contact& contact,
+                        Counts& counts) {
   bool hit = false;
   const TriangleView<T> faces = other.view();
   for (std::size_t i = 0; i < s.vertices.size(); ++i) {
@@ -50,7 +51,12 @@ bool virtual_edges_meet(const Mesh<T>& m, const Selection<T>& s, const Transform
       const T share = segment_meets(p, q, other.triangle(j), scale);
       if (share < 0 || !(share < contact.share)) continue;
       const int own = s.vertex_face[i], its = other.near[std::size_t(j)].face;
-      contact = {swapped ? Found::face_edge : Found::edge_face, double(share), s.vertices[i], its, swapped ? its : own, swapped ? own : its};
+      contact = {swapped ? Found::face_edge : Found::edge_face,
+                 double(share),
+                 s.vertices[i],
+                 its,
+                 swapped ? its : own,
+                 swapped ? own : its};
       hit = true;
       if (!earliest) return true;
     }
@@ -72,8 +78,8 @@ BoxView<T> edge_boxes(const Mesh<T>& m, const Selection<T>& s, Workspace<T>& w) 
 }
 
 template <class T>
-bool moving_edges_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& start, const Transform<T>& end, T scale, bool earliest,
-                       Workspace<T>& w, Contact& contact, Counts& counts) {
+bool moving_edges_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& start, const Transform<T>& end, T scale,
+                       bool earliest, Workspace<T>& w, Contact& contact, Counts& counts) {
   bool hit = false;
   const BoxView<T> boxes = edge_boxes(b, w.b, w);
   const int padded = int((w.b.edges.size() + lanes<T> - 1) / lanes<T> * lanes<T>);
@@ -83,7 +89,7 @@ bool moving_edges_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& s
     const Vec3<T> p = start(a.vertices[std::size_t(e[0])]), q = start(a.vertices[std::size_t(e[1])]);
     const Vec3<T> r = end(a.vertices[std::size_t(e[0])]), s = end(a.vertices[std::size_t(e[1])]);
     const auto low = [](T k, T l, T m, T n) { return std::fmin(std::fmin(k, l), std::fmin(m, n)); };
-    const T box[6] = {low(p.x, q.x, r.x, s.x), low(p.y, q.y, r.y, s.y), low(p.z, q.z, r.z, s.z),
+    const T box[6] = {low(p.x, q.x, r.x, s.x),      low(p.y, q.y, r.y, s.y),      low(p.z, q.z, r.z, s.z),
                       -low(-p.x, -q.x, -r.x, -s.x), -low(-p.y, -q.y, -r.y, -s.y), -low(-p.z, -q.z, -r.z, -s.z)};
     kernels<T>.boxes_apart(boxes, padded, box, slack, w.flags.data());
     for (std::size_t j = 0; j < w.b.edges.size(); ++j) {
@@ -113,7 +119,8 @@ double measure(const Mesh<T>& a, const Mesh<T>& b, const Contact& c, const Trans
   const bool swapped = c.found == Found::face_edge;
   const Mesh<T>&moved = swapped ? b : a, &still = swapped ? a : b;
   const auto& f = still.faces[c.fixed];
-  const Vec3<double> o = vertex(still, f[0]), n = cross(vertex(still, f[1]) - o, vertex(still, f[2]) - o), v = vertex(moved, c.moving);
+  const Vec3<double> o = vertex(still, f[0]), n = cross(vertex(still, f[1]) - o, vertex(still, f[2]) - o),
+                     v = vertex(moved, c.moving);
   return dot(n, (swapped ? a_to_b.inverse()(v) : a_to_b(v)) - o);
 }
 
@@ -151,8 +158,8 @@ double velocity_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, con
 
 // Step 4 (and its repairs) over a window, on the selections made. Leaves B's selection gathered, and A's not.
 template <class T>
-bool features_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& start, const Transform<double>& end, const Options& o,
-                   T scale, Workspace<T>& w, Contact& contact, Counts& counts) {
+bool features_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& start, const Transform<double>& end,
+                   const Options& o, T scale, Workspace<T>& w, Contact& contact, Counts& counts) {
   const Transform<T> s(start), e(end);
   bool hit = virtual_edges_meet(a, w.a, s, e, w.b, scale, false, o.earliest, w, contact, counts);
   if (hit && !o.earliest) return true;
@@ -194,7 +201,8 @@ double bisection_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, co
     ++counts.steps;
     Contact ignored;
     Answer there;
-    const bool hit = features_meet(a, b, start, middle, o, scale, w, ignored, there.counts) || surfaces_meet(a, middle, w, scale, there);
+    const bool hit =
+        features_meet(a, b, start, middle, o, scale, w, ignored, there.counts) || surfaces_meet(a, middle, w, scale, there);
     counts.add(there.counts);
     if (hit) {
       hi = mid;
@@ -207,8 +215,8 @@ double bisection_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, co
 
 // Selections for a window: at its start, or also at its end, or also where the centres pass closest.
 template <class T>
-void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, const Options& o, Workspace<T>& w,
-                Counts& counts) {
+void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, const Options& o,
+                Workspace<T>& w, Counts& counts) {
   double times[3] = {window.t0, window.t1, window.t1};
   const int n = o.selections < 3 ? o.selections : 3;
   double gap = n == 1 ? window.t1 - window.t0 : (window.t1 - window.t0) / 2;  // farthest any time is from one of `times`
@@ -247,8 +255,8 @@ double stray(const Mesh<T>& a, const Track& track, double h) {
   return (wa * wa * a.extent + 2 * wb * (wa * a.extent + v) + wb * wb * (apart + a.extent)) * h * h / 8;
 }
 
-// One plane between the hulls of the whole meshes, with room for the stray: the bodies are apart throughout the window, on their true
-// paths.
+// One plane between the hulls of the whole meshes, with room for the stray: the bodies are apart throughout the window, on their
+// true paths.
 template <class T>
 bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Window<T>& window, T gap, Vec3<T>& axis) {
   const Transform<T> start(window.start), end(window.end);
@@ -345,9 +353,10 @@ Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Optio
   detail::Window<T> window{0, 1, track.at(0), track.at(1)};
   ++answer.counts.spheres;
   const Vec3<double> ca(a.centre), cb(b.centre);
-  const bool rejected = o.broad == Broad::start
-                            ? detail::spheres_apart(track.between(ca, cb, 0), double(a.radius) + double(b.radius) + slack(window.start))
-                            : detail::swept_spheres_apart(a, b, track, 0, 1, slack(window.start) + slack(window.end));
+  const bool rejected =
+      o.broad == Broad::start
+          ? detail::spheres_apart(track.between(ca, cb, 0), double(a.radius) + double(b.radius) + slack(window.start))
+          : detail::swept_spheres_apart(a, b, track, 0, 1, slack(window.start) + slack(window.end));
   if (rejected) return answer;
   if (detail::holds(a, b, Transform<T>(window.start), o, answer)) {
     answer.hit = true, answer.time = 0;

@@ -116,7 +116,10 @@ inline T segment_meets(const Vec3<T>& p, const Vec3<T>& q, const Triangle<T>& t,
 template <class T>
 inline T squared_distance(const Vec3<T>& p, const Triangle<T>& t) {
   const Vec3<T> ab = t.b - t.a, ac = t.c - t.a, ap = p - t.a;
-  const auto to = [&](const Vec3<T>& x) { const Vec3<T> d = p - x; return dot(d, d); };
+  const auto to = [&](const Vec3<T>& x) {
+    const Vec3<T> d = p - x;
+    return dot(d, d);
+  };
   const T d1 = dot(ab, ap), d2 = dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return to(t.a);
   const Vec3<T> bp = p - t.b;
@@ -139,7 +142,8 @@ inline T squared_distance(const Vec3<T>& p, const Triangle<T>& t) {
 // which they cross, or -1. The four points lie in one plane at the roots of a quadratic. Edges that stay in one plane all the
 // time, or are parallel to rounding when they meet, are left to the tests of vertices against faces, which see the same contact.
 template <class T>
-inline T edges_cross(const Vec3<T>& p, const Vec3<T>& q, const Vec3<T>& dp, const Vec3<T>& dq, const Vec3<T>& a, const Vec3<T>& b, T scale) {
+inline T edges_cross(const Vec3<T>& p, const Vec3<T>& q, const Vec3<T>& dp, const Vec3<T>& dq, const Vec3<T>& a, const Vec3<T>& b,
+                     T scale) {
   const Vec3<T> f = b - a, e = q - p, de = dq - dp, w = p - a;
   const T c0 = triple(e, f, w), c1 = triple(de, f, w) + triple(e, f, dp), c2 = triple(de, f, dp);
   T root[2];
@@ -152,7 +156,11 @@ inline T edges_cross(const Vec3<T>& p, const Vec3<T>& q, const Vec3<T>& dp, cons
     const T h = -(c1 + (c1 < 0 ? -std::sqrt(disc) : std::sqrt(disc))) / 2;
     root[roots++] = h / c2;
     if (h != 0) root[roots++] = c0 / h;
-    if (roots == 2 && root[1] < root[0]) { const T r = root[0]; root[0] = root[1]; root[1] = r; }
+    if (roots == 2 && root[1] < root[0]) {
+      const T r = root[0];
+      root[0] = root[1];
+      root[1] = r;
+    }
   }
   constexpr T slack = 64 * std::numeric_limits<T>::epsilon();
   for (int i = 0; i < roots; ++i) {

@@ -19,7 +19,9 @@ struct Vec3 {
 };
 
 template <class T>
-constexpr T dot(const Vec3<T>& a, const Vec3<T>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr T dot(const Vec3<T>& a, const Vec3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 template <class T>
 constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
@@ -27,10 +29,14 @@ constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
 }
 
 template <class T>
-constexpr T triple(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) { return dot(cross(a, b), c); }
+constexpr T triple(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) {
+  return dot(cross(a, b), c);
+}
 
 template <class T>
-inline T length(const Vec3<T>& a) { return std::sqrt(dot(a, a)); }
+inline T length(const Vec3<T>& a) {
+  return std::sqrt(dot(a, a));
+}
 
 template <class T>
 constexpr T largest(const Vec3<T>& a) {

@@ -18,7 +18,8 @@ template <class T>
 long count() {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> u(-1, 1);
-  const ofg::Body<T> a = body<T>(sphere(12, 20, 0, 1, 1, 1, random), true), b = body<T>(sphere(6, 9, 0.2, 2, 1, 0.3, random), false);
+  const ofg::Body<T> a = body<T>(sphere(12, 20, 0, 1, 1, 1, random), true),
+                     b = body<T>(sphere(6, 9, 0.2, 2, 1, 0.3, random), false);
   ofg::Workspace<T> w;
   w.reserve(a, b);
   ofg::Options repaired;
@@ -29,7 +30,8 @@ long count() {
     for (int k : {1, 8, 40, 100000}) {
       ofg::Options written;
       written.k = k, written.toi = i % 2 ? ofg::Toi::velocity : ofg::Toi::bisection, written.concave = ofg::Concave(i % 3);
-      const ofg::Pose p{{u(random), u(random), u(random), 1}, {2 * u(random), 2 * u(random), u(random)}}, q{{1, u(random), 0, 0}, {}};
+      const ofg::Pose p{{u(random), u(random), u(random), 1}, {2 * u(random), 2 * u(random), u(random)}},
+          q{{1, u(random), 0, 0}, {}};
       const ofg::Motion m{{u(random), u(random), u(random)}, {u(random), 1, 0}, i % 4 ? u(random) : 0};
       for (const auto& o : {written, repaired}) {
         ofg::overlap(a, b, {p, q}, o, w);

@@ -1,5 +1,6 @@
-// Random queries under AddressSanitizer and UndefinedBehaviorSanitizer, on shapes with everything wrong that a mesh can have, each
-// answer checked against what must hold. Usage: fuzz [queries] [seconds] [seed]. Prints the query and stops at the first fault.
+// Random queries under AddressSanitizer and UndefinedBehaviorSanitizer, on shapes with everything wrong that a mesh can have,
+// each answer checked against what must hold. Usage: fuzz [queries] [seconds] [seed]. Prints the query and stops at the first
+// fault.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -15,7 +16,8 @@ static int whole(Random& r, int a, int b) { return std::uniform_int_distribution
 
 // A shape and how it was spoilt.
 static Shape shape(Random& r, std::string& what) {
-  const double flat = whole(r, 0, 3) ? 1 : std::pow(10, uniform(r, -12, 0)), needle = whole(r, 0, 3) ? 1 : std::pow(10, uniform(r, -12, 0));
+  const double flat = whole(r, 0, 3) ? 1 : std::pow(10, uniform(r, -12, 0)),
+               needle = whole(r, 0, 3) ? 1 : std::pow(10, uniform(r, -12, 0));
   const bool grid = whole(r, 0, 3) == 0;
   Shape s = sphere(whole(r, 2, 7), whole(r, 3, 8), whole(r, 0, 1) ? 0 : uniform(r, 0, 0.9), 1, needle, flat * needle, r);
   const std::size_t n = s.v.size() / 3, m = s.f.size() / 3;
@@ -42,7 +44,8 @@ static Shape shape(Random& r, std::string& what) {
       what += " all-in-one-plane";
       for (std::size_t i = 0; i < n; ++i) s.v[3 * i + 2] = 0;
       break;
-    default: break;
+    default:
+      break;
   }
   return s;
 }
@@ -81,13 +84,15 @@ static Asked query(Random& r, double scale) {
   x.o.toi = ofg::Toi(whole(r, 0, 2)), x.o.broad = ofg::Broad(whole(r, 0, 1)), x.o.concave = ofg::Concave(whole(r, 0, 2));
   x.o.nearest = ofg::Nearest(whole(r, 0, 1)), x.o.selections = whole(r, 1, 3);
   x.o.adaptive_k = whole(r, 0, 2) == 0, x.o.both_vertices = whole(r, 0, 1), x.o.edge_edge = whole(r, 0, 1);
-  x.o.containment = whole(r, 0, 2) == 0, x.o.earliest = whole(r, 0, 1), x.o.arc_tolerance = whole(r, 0, 1) ? 0 : std::pow(10, uniform(r, -5, -1));
+  x.o.containment = whole(r, 0, 2) == 0, x.o.earliest = whole(r, 0, 1),
+  x.o.arc_tolerance = whole(r, 0, 1) ? 0 : std::pow(10, uniform(r, -5, -1));
   return x;
 }
 
 static bool same(const ofg::Answer& a, const ofg::Answer& b) {
-  return a.hit == b.hit && (a.time == b.time || (a.time != a.time && b.time != b.time)) && a.found == b.found && a.face_a == b.face_a &&
-         a.face_b == b.face_b && a.counts.face_pairs == b.counts.face_pairs && a.counts.evaluated == b.counts.evaluated;
+  return a.hit == b.hit && (a.time == b.time || (a.time != a.time && b.time != b.time)) && a.found == b.found &&
+         a.face_a == b.face_a && a.face_b == b.face_b && a.counts.face_pairs == b.counts.face_pairs &&
+         a.counts.evaluated == b.counts.evaluated;
 }
 
 template <class T>
@@ -96,7 +101,8 @@ const char* fault(Pair<T>& pair, const Asked& x) {
   ofg::Answer first[2];
   for (int isa = 0; isa <= int(ofg::widest_isa()); ++isa) {
     ofg::set_isa(ofg::Isa(isa));
-    const ofg::Answer now[2] = {ofg::overlap(pair.a, pair.b, still, x.o, pair.w), ofg::sweep(pair.a, pair.b, moving, x.o, pair.w)};
+    const ofg::Answer now[2] = {ofg::overlap(pair.a, pair.b, still, x.o, pair.w),
+                                ofg::sweep(pair.a, pair.b, moving, x.o, pair.w)};
     for (int i = 0; i < 2; ++i) {
       if (isa == 0) first[i] = now[i];
       if (!same(first[i], now[i])) return "instruction sets disagree";
@@ -138,7 +144,8 @@ int main(int argc, char** argv) {
       if (!f) f = fault(coarse, x);
       hits += f == nullptr && ofg::overlap(fine.a, fine.b, {x.p, x.q}, x.o, fine.w).hit;
       if (f) {
-        std::printf("query %ld: %s (shapes:%s; scale %g; k %d; faces %d, %d)\n", done, f, what.c_str(), scale, x.o.k, fine.a.whole.size(), fine.b.whole.size());
+        std::printf("query %ld: %s (shapes:%s; scale %g; k %d; faces %d, %d)\n", done, f, what.c_str(), scale, x.o.k,
+                    fine.a.whole.size(), fine.b.whole.size());
         return 1;
       }
     }

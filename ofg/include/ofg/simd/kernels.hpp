@@ -8,10 +8,10 @@
 
 namespace ofg {
 
-constexpr int block_faces = 16;   // faces in a block: one or two registers of the widest set
+constexpr int block_faces = 16;  // faces in a block: one or two registers of the widest set
 template <class T>
 constexpr int lanes = 64 / int(sizeof(T));  // arrays are padded to a multiple of the widest register
-constexpr int most_ranked = 128;  // candidates up to which counting ranks beats sorting
+constexpr int most_ranked = 128;            // candidates up to which counting ranks beats sorting
 
 template <class T>
 struct Candidate {
