@@ -113,3 +113,26 @@ def test_far_from_the_origin_nothing_is_lost(cube):
     for far in (1e3, 1e9):
         a, b = Pose(position=(far, far, far)), Pose(position=(far + 2.5, far, far))
         assert not ofg.discrete(cube, cube, a, b) and ofg.discrete(cube, cube, a, Pose(position=(far + 1.5, far, far)))
+
+
+@pytest.mark.parametrize("repairs", ["none", "all"])
+def test_numbers_that_overflow_crash_nothing(ball, cube, repairs):
+    """The fuzzer found an empty selection, and with it reads past the faces, where distances are NaN."""
+    for far in (1e160, 1e300):
+        for a, b in ((ball, cube), (cube, ball)):
+            pose = Pose(position=(far, -far, far))
+            for other in (pose, Pose()):
+                ofg.discrete(a, b, pose, other, repairs=repairs)
+                ofg.translational_sweep(a, b, (far, far, 0), pose, other, repairs=repairs)
+
+
+def test_a_face_with_a_doubled_corner_is_still_selected():
+    """Its distance was 0/0 by the region of the doubled corner, which dropped every face of such a mesh from the selection."""
+    cube = Body.convex(CUBE)
+    vertices = np.concatenate([CUBE[cube.faces[0]][:1], CUBE])
+    a = ofg._core.Solid(vertices, np.array([[0, cube.faces[0][0] + 1, 7]], np.int32), True, [], [])
+    b = ofg.algorithm.solid(cube)
+    options = ofg.options.core_options(selection="point-triangle", concave="undivided", adaptive_k=True)
+    here, rest = np.array([[1.0, 0, 0, 0, 0, 0, 0]]), np.zeros((1, 7))
+    hit, *_ = ofg._core.ask_many(a, b, here, here, rest, rest, options, 0, False, False, 1)
+    assert hit[0]

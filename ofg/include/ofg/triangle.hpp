@@ -120,20 +120,21 @@ inline T squared_distance(const Vec3<T>& p, const Triangle<T>& t) {
     const Vec3<T> d = p - x;
     return dot(d, d);
   };
+  const auto share = [](T part, T all) { return all > 0 ? part / all : T(0); };  // 0 on an edge of no length
   const T d1 = dot(ab, ap), d2 = dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return to(t.a);
   const Vec3<T> bp = p - t.b;
   const T d3 = dot(ab, bp), d4 = dot(ac, bp);
   if (d3 >= 0 && d4 <= d3) return to(t.b);
   const T vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return to(t.a + ab * (d1 / (d1 - d3)));
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return to(t.a + ab * share(d1, d1 - d3));
   const Vec3<T> cp = p - t.c;
   const T d5 = dot(ab, cp), d6 = dot(ac, cp);
   if (d6 >= 0 && d5 <= d6) return to(t.c);
   const T vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return to(t.a + ac * (d2 / (d2 - d6)));
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return to(t.a + ac * share(d2, d2 - d6));
   const T va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return to(t.b + (t.c - t.b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6))));
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return to(t.b + (t.c - t.b) * share(d4 - d3, (d4 - d3) + (d5 - d6)));
   const T sum = va + vb + vc;
   return sum > 0 ? to(t.a + ab * (vb / sum) + ac * (vc / sum)) : to(t.a);
 }

@@ -111,6 +111,7 @@ static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& 
     T d[block_faces];
     distances(b.x, b.y, b.z, block_faces, p, d);
     ranks(d, b.face, b.faces, rank);
+    for (int i = 0; i < b.faces; ++i) found[i].distance = d[i], found[i].face = int(b.face[i]);  // stays where NaNs have no rank
     for (int i = 0; i < b.faces; ++i)  // those beyond k are written where nobody looks
       found[rank[i]].distance = d[i], found[rank[i]].face = int(b.face[i]);
     *evaluated = b.faces;
@@ -136,7 +137,7 @@ static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& 
       store(s.bound + i, bound);
     }
     const T least = least_lane<T>(low);
-    while (!(s.bound[best] == least)) ++best;
+    while (best < b.blocks - 1 && !(s.bound[best] == least)) ++best;
     distances(b.x + best * block_faces, b.y + best * block_faces, b.z + best * block_faces, block_faces, p, s.distance);
     limit = kth(s.distance, k);
     for (int i = 0; i < b.blocks; ++i) {
@@ -163,6 +164,7 @@ static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& 
   for (int i = n; i < n + w; ++i) s.distance[i] = __builtin_huge_valf(), s.face[i] = 0;
   Int rank[most_ranked + block_faces];
   ranks(s.distance, s.face, n, rank);
+  for (int i = 0; i < n; ++i) found[i].distance = s.distance[i], found[i].face = int(s.face[i]);
   for (int i = 0; i < n; ++i)  // those beyond k are written where nobody looks
     found[rank[i]].distance = s.distance[i], found[rank[i]].face = int(s.face[i]);
   return n < k ? n : k;
@@ -189,7 +191,7 @@ OFG_INLINE T least_product(const T* x, const T* y, const T* z, int n, const T* a
     const typename Lane<T>::Int i = low[l] == least ? where[l] + l : 1 << 30;
     first = i < first ? i : first;
   }
-  *at = int(first);
+  *at = first < n ? int(first) : 0;  // no lane is least where numbers overflowed to NaN
   return least;
 }
 
