@@ -34,6 +34,13 @@ def versions(config: RunConfig) -> dict:
     return {name: _version(name) for name in sorted(engines | set(LIBRARIES))}
 
 
+def build() -> dict:
+    """Compiler and flags of our own native code, and the instruction set it uses here."""
+    from ofg import _core
+
+    return {"compiler": _core.build, "isa": ("sse2", "avx2", "avx512")[_core.widest_isa()]}
+
+
 def commit() -> str:
     """The commit of the checkout with '+' if files differ from it; 'unknown' outside a checkout."""
     root = Path(__file__).parent

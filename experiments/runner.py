@@ -35,7 +35,7 @@ def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missin
     store = Store(folder)
     store.begin(config)
     if not store.has("manifest.json"):
-        note(store, started=manifest.now(), commit=manifest.commit(), versions=manifest.versions(config), before=manifest.machine())
+        note(store, started=manifest.now(), commit=manifest.commit(), versions=manifest.versions(config), build=manifest.build(), before=manifest.machine())
     workers = workers or os.cpu_count() or 1
     if "finished" in facts(store):
         return report(store)

@@ -196,6 +196,7 @@ NB_MODULE(_core, m) {
       "set_isa", [](int isa) { return ofg::set_isa(ofg::Isa(isa)); }, "isa"_a,
       "0: SSE2, 1: AVX2, 2: AVX-512. False where the machine lacks it.");
   m.def("widest_isa", [] { return int(ofg::widest_isa()); });
+  m.attr("build") = OFG_BUILD;
   m.def("triangles_meet", &triangles_meet<double>, "pairs"_a);
   m.def("triangles_meet_float", &triangles_meet<float>, "pairs"_a);
   nb::class_<Solid>(m, "Solid")
