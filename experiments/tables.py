@@ -221,7 +221,7 @@ def truth_table(store: Store) -> Table:
         rows.append({"scenario": name, "question": group.question.iloc[0], "cases": len(group), "hit": count.get("hit", 0), "clear": count.get("clear", 0),
                      "uncertain": count.get("uncertain", 0), "drawn again": int(group.attempt.sum()), "exposes": _exposes(name)})
     frame = pd.DataFrame(rows)
-    text = frame.assign(exposes=frame.exposes.str.slice(0, 44))
+    text = frame.astype(str)
     return Table("truth", "Cases and their certified labels.", "Uncertain cases are in no rate. 'Drawn again': draws thrown away because the step began "
                  "in overlap.", frame, text, True, ("exposes", "drawn again"))
 
