@@ -9,6 +9,7 @@ import multiprocessing
 import os
 import pickle
 import random
+import resource
 import signal
 import tempfile
 import traceback
@@ -22,6 +23,8 @@ from typing import Any, Callable, Sequence
 PRELOAD = ["experiments.cli", "experiments.labelling", "experiments.answering", "experiments.timing", "experiments.truth"]
 # A process that the watchdog of `limit` ends leaves with this code (faulthandler calls _exit(1)).
 WATCHDOG_EXIT = 1
+RECYCLE_EXIT = 75  # of a worker that has grown past its memory: it loses nothing, the rest goes on in a fresh one
+MEMORY = 4 << 30  # bytes a worker may hold
 
 
 class WorkerError(RuntimeError):
@@ -59,9 +62,9 @@ def mixed(tasks: Sequence[Task]) -> list[Task]:
 
 
 def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance: Callable[[int], None] = lambda n: None,
-        prepare: Callable[[], None] | None = None) -> None:
+        prepare: Callable[[], None] | None = None, memory: int = MEMORY) -> None:
     """Run all tasks, each in a fresh process, `workers` at a time. seconds: limit for one item. log: what processes print.
-    prepare: called first in each process. WorkerError with the worker's traceback where our own code fails.
+    prepare: called first in each process. memory: bytes after which a worker is replaced. WorkerError with the worker's traceback where our own code fails.
 
     A fresh process for each task makes results independent of the number of workers: what an engine leaves in its memory
     is seen by the later items of the same task alone. No pool of a library does this: loky and concurrent.futures break as a
@@ -77,14 +80,15 @@ def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance:
                 while queue and len(running) < workers:
                     task, before = queue.popleft()
                     journal = Path(folder, f"{id(task)}-{len(before)}")
-                    process = context.Process(target=_work, args=(prepare, task.open, task.argument, task.items[len(before):], seconds, journal, log))
+                    process = context.Process(target=_work, args=(prepare, task.open, task.argument, task.items[len(before):], seconds, memory, journal, log))
                     process.start()
                     running[process.sentinel] = process, task, before, journal
                 for sentinel in wait(running):
                     process, task, before, journal = running.pop(sentinel)
                     process.join()
                     results = before + _read(journal)
-                    if len(results) < len(task.items):
+                    recycled = process.exitcode == RECYCLE_EXIT and len(results) > len(before)
+                    if len(results) < len(task.items) and not recycled:
                         results.append(task.lost(task.items[len(results)], *_death(process.exitcode)))
                     advance(len(results) - len(before))
                     if len(results) < len(task.items):
@@ -96,7 +100,7 @@ def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance:
                 process.kill()
 
 
-def _work(prepare, open_, argument, items, seconds, journal, log) -> None:
+def _work(prepare, open_, argument, items, seconds, memory, journal, log) -> None:
     """In the worker: append each result to the journal as soon as it is there, so that a death loses the current item only."""
     output = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
     os.dup2(output, 1), os.dup2(output, 2)
@@ -111,6 +115,8 @@ def _work(prepare, open_, argument, items, seconds, journal, log) -> None:
                     result = answer(item)
                 pickle.dump(result, stream)
                 stream.flush()
+                if resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 > memory:
+                    os._exit(RECYCLE_EXIT)
         except Exception:
             pickle.dump(WorkerError(traceback.format_exc()), stream)
     os._exit(0)  # past the destructors of engines, some of which crash

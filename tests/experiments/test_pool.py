@@ -63,6 +63,23 @@ def test_a_crash_after_the_last_answer_costs_nothing(tmp_path):
     assert _results(tmp_path, [[1, 2], [3]], {"crash at exit": 2}) == [[1, 4], [9]]
 
 
+def _open_leaky(_):
+    held = []
+
+    def answer(item):
+        held.append(b"x" * (64 << 20))
+        return item, len(held)
+
+    return answer
+
+
+def test_a_worker_that_leaks_is_replaced_and_loses_nothing(tmp_path):
+    found = []
+    run([Task(_open_leaky, None, list(range(12)), found.extend, lambda *lost: lost)], 1, 10.0, tmp_path / "log", memory=512 << 20)
+    assert [item for item, _ in found] == list(range(12))
+    assert 1 < max(held for _, held in found) < 12, "no worker went through all items, and none was replaced at once"
+
+
 def test_an_error_of_ours_is_raised_with_its_traceback(tmp_path):
     with pytest.raises(WorkerError, match="ZeroDivisionError: ours"):
         _results(tmp_path, [[1, 2, 3]], {"raise": 2})
