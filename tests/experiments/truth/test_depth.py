@@ -1,7 +1,8 @@
 """The depth of an overlap is the least translation that ends it, so no more than the one the scenario was built with.
 
 Cause of this test: of edge-edge contacts 1e-10 deep, `gap` came out as -0.05 (the depth along the best face normal), and a miss
-at 1e-10 was filed in the tables under "deep". (From the lead: tables are split by this number, so it matters as much as the label.)
+at 1e-10 was filed in the tables under "deep". Tables are split by
+this number, so it matters as much as the label.
 """
 
 import pytest
