@@ -1,202 +1,128 @@
-"""The claims of Kara's article, measured against certified truth: `python -m experiments.claims [--cases 200] [--out claims.md]`.
+"""What the article claims about sizes and operations, and no run of the catalogue holds: python -m experiments.claims [--cases 400]
 
-1. "a higher k is more accurate; small faces need a higher k": misses against k, from 12 to 5,120 faces, shallow and deep.
-2. "k^2 operations after selection instead of n m": what was counted, as shares of the bounds.
-3. When it pays against testing all pairs: time of OFG over time of all pairs, by size and k.
-4. Speed over thickness, angle per step, and concavity: misses on the scenario families that vary them, as written and repaired.
-5. Time of impact: both estimates against the certified brackets.
-Only certified cases are counted; what the prover leaves uncertain is named.
+Pairs of random hulls of 12 to 5,120 faces. Overlaps at a shallow and at a large depth, certified: what each k misses, and the operations
+counted. Flights of the same hulls, with and without a turn: operations alone. The rows go to results/claims; experiments/findings.py
+reads them.
 """
 
 from __future__ import annotations
 
-import argparse
-import time
+import json
 from pathlib import Path
+from typing import Annotated, Iterator
 
 import numpy as np
 import pandas as pd
+import typer
 
 import ofg
 from ofg import Motion, Pose, Query
 
-from . import scenarios, shapes
-from .metrics import wilson
+from . import manifest, metrics, shapes
+from .progress import stage
 from .scenario import snap
-from .scenarios._place import touching
+from .scenarios._place import any_direction, touching
+from .store import Store
 from .truth import label
 
 FACES = (12, 80, 320, 1280, 5120)
 KS = (4, 8, 16, 64)
-ALL = 2**31 - 1
-DEPTHS = {"shallow (1e-3 to 3e-2 of the radius)": (1e-3, 3e-2), "deep (0.1 to 1)": (0.1, 1.0)}
+DEPTHS = {"shallow": (1e-3, 3e-2), "deep": (0.1, 1.0)}  #: of B's radius, log-uniform
+COUNTED = ("distances", "face_pairs", "edge_faces", "full_tests", "evaluated")
 
 
-def rate(missed: int, total: int) -> str:
-    low, high = wilson(missed, total)
-    return f"{100 * missed / total:.1f} % [{100 * low:.1f}, {100 * high:.1f}] of {total}" if total else "-"
+def hulls(faces: int, i: int) -> tuple[ofg.Body, ofg.Body]:
+    return shapes.hull(faces, 2 * (i % 8)), shapes.hull(faces, 2 * (i % 8) + 1)
 
 
-def overlapping(faces: int, low: float, high: float, n: int, rng: np.random.Generator) -> list[Query]:
-    """Certified overlaps of random hulls, placed by contact feature at a depth drawn log-uniformly."""
-    hits = []
+def overlaps(faces: int, low: float, high: float, n: int, rng: np.random.Generator) -> Iterator[Query]:
+    """Pairs placed by contact feature at a depth of low to high; only those that are certified to overlap."""
     for i in range(n):
-        a, b = shapes.hull(faces, 2 * (i % 8)), shapes.hull(faces, 2 * (i % 8) + 1)
+        a, b = hulls(faces, i)
         turn, position, _ = touching(rng, a, b, -np.exp(rng.uniform(np.log(low), np.log(high))))
         query = Query("overlap", a, b, Pose(snap(turn), snap(position)), Pose())
         if label(query).label == "hit":
-            hits.append(query)
-    return hits
+            yield query
 
 
-def accuracy(cases: int, rng) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Claim 1 and, for the same queries, claim 2."""
-    misses, operations = [], []
-    for faces in FACES:
-        for depth, (low, high) in DEPTHS.items():
-            hits = overlapping(faces, low, high, cases if faces < 5120 else cases // 4, rng)
-            row = {"faces": faces, "depth": depth}
-            for k in (*(k for k in KS if k < faces), ALL):
-                answers = [ofg.ask(q, k=k) for q in hits]
-                row[f"k={k}" if k < ALL else "k=all"] = rate(sum(not a.hit for a in answers), len(hits))
-                full = min(k, faces) ** 2
-                pairs = [a.counts["face_pairs"] / full for a in answers]
-                operations.append(
-                    {
-                        "faces": faces,
-                        "depth": depth,
-                        "k": min(k, faces),
-                        "distances / (n + m)": np.mean([a.counts["distances"] / (2 * faces) for a in answers]),
-                        "computed / (n + m)": np.mean([a.counts["evaluated"] / (2 * faces) for a in answers]),
-                        "face pairs / k^2, mean": np.mean(pairs),
-                        "most": np.max(pairs),
-                        "full tests, mean": np.mean([a.counts["full_tests"] for a in answers]),
-                    }
-                )
-            row["repairs=all"] = rate(sum(not ofg.ask(q, repairs="all").hit for q in hits), len(hits))
-            misses.append(row)
-    return pd.DataFrame(misses), pd.DataFrame(operations)
+def flights(question: str, faces: int, n: int, rng: np.random.Generator) -> Iterator[Query]:
+    """A starts a radius away and flies two radii at a feature of B, or in any direction; a turn is of one radian."""
+    for i in range(n):
+        a, b = hulls(faces, i)
+        turn, position, normal = touching(rng, a, b, 1.0)
+        path = -2.0 * (normal if i % 2 else any_direction(rng))
+        motion = Motion(snap(path), any_direction(rng), 1.0) if question == "motion" else Motion(snap(path))
+        yield Query(question, a, b, Pose(snap(turn), snap(position)), Pose(), motion)
 
 
-def pays(rng, n: int = 200, rounds: int = 5) -> pd.DataFrame:
-    """Claim 3: paired ratios, interleaved, on pairs 1e-3 to 1e-1 of the radius apart: where nothing can stop early."""
-    rows = []
-    for faces in FACES:
-        a, b = shapes.hull(faces, 0), shapes.hull(faces, 1)
-        m = n if faces < 1280 else 8
-        placed = [touching(rng, a, b, np.exp(rng.uniform(np.log(1e-3), np.log(1e-1)))) for _ in range(m)]
-        poses = np.array([[*turn, *position] for turn, position, _ in placed])
-        ratios = {k: [] for k in (*KS, ALL)}
-        for _ in range(rounds):
-            brute = timed(lambda: ofg.brute_force_many(a, b, poses, Pose()))
-            for k in ratios:
-                ratios[k].append(timed(lambda: ofg.discrete_many(a, b, poses, Pose(), k=k)) / brute)
-        rows.append({"faces": faces, **{f"k={k}" if k < ALL else "k=all": np.median(r) for k, r in ratios.items()}})
+def ask(query: Query, faces: int, depth: str, case: int) -> Iterator[dict]:
+    """A row per k below the number of faces, for k = all faces, and for all repairs."""
+    variants = [{"k": k} for k in (*(k for k in KS if k < faces), faces)] + [{"repairs": "all"}]
+    for options in variants:
+        answer = ofg.ask(query, **options)
+        yield {"question": query.question, "faces": faces, "depth": depth, "case": case, "k": options.get("k", 0),
+               "repairs": "repairs" in options, "hit": answer.hit, **{name: answer.counts[name] for name in COUNTED}}
+
+
+def measure(cases: int, seed: int) -> pd.DataFrame:
+    """All rows. k is 0 where it is adapted (repairs)."""
+    rng, rows = np.random.default_rng(seed), []
+    with stage("ask hulls of each size", len(FACES)) as advance:
+        for faces in FACES:
+            n = cases if faces < 5120 else max(cases // 4, 1)  # a label takes longer there
+            for depth, (low, high) in DEPTHS.items():
+                for i, query in enumerate(overlaps(faces, low, high, n, rng)):
+                    rows += ask(query, faces, depth, i)
+            for question in ("translation", "motion"):
+                for i, query in enumerate(flights(question, faces, max(n // 4, 1), rng)):
+                    rows += ask(query, faces, "", i)
+            advance(1)
     return pd.DataFrame(rows)
 
 
-def timed(call) -> float:
-    start = time.process_time()
-    call()
-    return time.process_time() - start
+def misses(rows: pd.DataFrame) -> pd.DataFrame:
+    """Misses of certified overlaps by faces, depth and k, with Wilson intervals."""
+    part = rows[rows.question == "overlap"]
+    counts = part.groupby(["faces", "depth", "k", "repairs"], sort=False).hit.agg(hits="size", misses=lambda h: int((~h).sum())).reset_index()
+    counts["miss_low"], counts["miss_high"] = zip(*[metrics.wilson(m, n) for m, n in zip(counts.misses, counts.hits)])
+    return counts
 
 
-VARIANTS = {
-    "as written": {},
-    "k=16": {"k": 16},
-    "k=all": {"k": ALL},
-    "step 1 at the start": {"broad": "start"},
-    "repairs=all": {"repairs": "all"},
-}
-CONCAVE = {
-    "object": {},
-    "undivided": {"concave": "undivided"},
-    "all pairs of pieces": {"concave": "all-pairs"},
-    "repairs=all": {"repairs": "all"},
-}
-FAMILIES = {
-    "thin_wall": VARIANTS,
-    "screw_wall": VARIANTS,
-    "rotational_contact": VARIANTS,
-    "spin_side": VARIANTS,
-    "hooked_ls": CONCAVE,
-    "linked_tori": CONCAVE,
-    "concave_rotation": CONCAVE,
-}
+def operations(rows: pd.DataFrame) -> pd.DataFrame:
+    """Operations as written, by question, faces and k: the largest and the mean share of each of the article's bounds."""
+    part = rows[~rows.repairs]
+    shares = part[["question", "faces", "k"]].assign(
+        distances=part.distances / (2 * part.faces), evaluated=part.evaluated / (2 * part.faces), pairs=part.face_pairs / part.k**2,
+        after_selection=(part.face_pairs + part.edge_faces) / (part.k**2 + 3 * part.k), full_tests=part.full_tests / part.k**2)
+    named = {f"{name}_{how}": (name, how) for name in shares.columns[3:] for how in ("mean", "max")}
+    return shares.groupby(["question", "faces", "k"], sort=False).agg(queries=("k", "size"), **named).reset_index()
 
 
-def families(cases: int, seed: int) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Claim 4, by family and level, and claim 5 over the sweeps among them and `contact`."""
-    rows, impacts = [], []
-    for name in (*FAMILIES, "contact"):
-        scenario = scenarios.get(name)
-        for level in scenario.levels:
-            certified = [(c.query, label(c.query)) for c in (scenario.case(seed, level, i) for i in range(cases))]
-            hits = [(q, t) for q, t in certified if t.label == "hit"]
-            uncertain = sum(t.label == "uncertain" for _, t in certified)
-            if name in FAMILIES:
-                row = {"family": name, "level": f"{level:g}", "axis": scenario.axis, "uncertain": uncertain}
-                for variant, options in FAMILIES[name].items():
-                    row[variant] = rate(sum(not ofg.ask(pieces(q, options), **options).hit for q, _ in hits), len(hits))
-                rows.append(row)
-            if scenario.question != "overlap":
-                impacts += [error for q, t in hits for error in time_errors(name, q, t)]
-    return pd.DataFrame(rows), pd.DataFrame(impacts)
+def save(rows: pd.DataFrame, made: dict, folder: Path) -> None:
+    store = Store(folder)
+    store.write(rows, "claims.parquet")
+    store.write_text(json.dumps(made, indent=1) + "\n", "made.json")
+    for name, table in (("misses", misses(rows)), ("operations", operations(rows))):
+        store.write_text(table.to_csv(index=False, float_format="%.6g", lineterminator="\n"), "tables", f"{name}.csv")
+        store.write_text(table.to_markdown(index=False, floatfmt=".3g") + "\n", "tables", f"{name}.md")
 
 
-def pieces(q: Query, options: dict) -> Query:
-    if (
-        options.get("concave") == "undivided" or options.get("repairs") == "all"
-    ):  # as the method does: adaptive k needs no convexity
-        return q
-    return Query(q.question, ofg.decompose(q.a), ofg.decompose(q.b), q.pose_a, q.pose_b, q.motion)
+def run(folder: Path, cases: int = 400, seed: int = 2004) -> None:
+    """Measure into the folder, unless it is done."""
+    if not (folder / "claims.parquet").exists():
+        made = {"started": manifest.now(), "commit": manifest.commit(), "build": manifest.build(), "before": manifest.machine(), "cases": cases, "seed": seed}
+        save(measure(cases, seed), {**made, "finished": manifest.now()}, folder)
 
 
-def time_errors(family: str, q: Query, truth):
-    """Signed error of each estimate against its bracket; only hits that the variant found and gave a time."""
-    variants = {
-        "velocity": {},
-        "bisection": {"toi": "bisection"},
-        "repairs=all, velocity": {"repairs": "all"},
-        "repairs=all, bisection": {"repairs": "all", "toi": "bisection"},
-    }
-    for name, options in variants.items():
-        t = ofg.ask(pieces(q, options), **options).time
-        if not np.isnan(t):
-            yield {"family": family, "estimate": name, "error": t - truth.t_hi if t > truth.t_hi else min(0.0, t - truth.t_lo)}
-
-
-def impact_table(errors: pd.DataFrame) -> pd.DataFrame:
-    groups = errors.groupby(["family", "estimate"], sort=False)["error"]
-    return groups.agg(times="size", median_size=lambda e: e.abs().median(), latest="max", earliest="min").reset_index()
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument(
-        "--cases", type=int, default=200, help="cases per cell; a quarter at 5,120 faces, a fifth per level of a family"
-    )
-    parser.add_argument("--seed", type=int, default=2004)
-    parser.add_argument("--out", type=Path, help="write the tables here as Markdown")
-    a = parser.parse_args()
-    rng = np.random.default_rng(a.seed)
-    misses, operations = accuracy(a.cases, rng)
-    by_family, impacts = families(max(a.cases // 5, 2), a.seed)
-    parts = [
-        ("1. Misses against k (Wilson 95 %), discrete, random hulls", misses),
-        ("2. Operations", operations),
-        ("3. Time over that of all pairs of faces (batched, no Python in it), separated pairs", pays(rng)),
-    ]
-    parts += [
-        (f"4. Misses in {name}: {table['axis'].iloc[0]}", table[["level", "uncertain", *FAMILIES[name]]])
-        for name, table in by_family.groupby("family", sort=False)
-    ]
-    parts.append(("5. Time of impact: error against the certified bracket, in steps", impact_table(impacts)))
-    text = "\n\n".join(f"### {title}\n\n{table.to_markdown(index=False, floatfmt='.3g')}" for title, table in parts)
-    print(text)
-    if a.out:
-        a.out.write_text(text + "\n")
+def main(
+    cases: Annotated[int, typer.Option(min=4, help="overlaps for each size and depth; a quarter of it at 5,120 faces, and of flights")] = 400,
+    seed: Annotated[int, typer.Option(help="of bodies and poses")] = 2004,
+    out: Annotated[Path, typer.Option(help="folder")] = Path("results", "claims"),
+) -> None:
+    run(out, cases, seed)
+    print((out / "tables" / "misses.md").read_text())
+    print((out / "tables" / "operations.md").read_text())
 
 
 if __name__ == "__main__":
-    main()
+    typer.run(main)

@@ -79,19 +79,44 @@ def reproduce(
     into: Annotated[Path, typer.Option(help="folder of the run folders")] = Path("results"),
     workers: Workers = None,
 ) -> None:
-    """Run experiments one after another, each into its own folder, and build all tables, figures and reports anew.
+    """Run experiments one after another, each into its own folder, build all tables, figures and reports anew, and write the findings.
 
     What is finished already is not run again: remove its folder if it shall be. Said again after an interruption, it goes on where it stopped.
     """
     from . import runner
 
+    everything = not names
     names = names or [*configuration.experiments(), "standard"]
     chosen = {name: configuration.load(name) for name in names}
     for i, (name, config) in enumerate(chosen.items(), 1):
         console.print(f"[bold]{i} of {len(names)}: {name}[/] {config.title}", highlight=False)
         _say_missing(config)
         runner.run(config, into / name, workers)
+    if everything:
+        from . import claims
+
+        console.print("[bold]and the article's claims by size, depth and k[/]")
+        claims.run(into / "claims")
+    findings(into, into / "README.md")
     console.print(f"All of it is in {into}: tables, figures, report.html, manifest.json and the rows of each run.")
+
+
+@app.command()
+def findings(
+    results: Annotated[Path, typer.Argument(help="folder of run folders, as reproduce makes it")] = Path("results"),
+    into: Annotated[Optional[Path], typer.Option(help="write the page here [default: print it]")] = None,
+) -> None:
+    """Say what the runs of a folder found: each claim of the article with its verdict, then each engine. What is missing is said to be."""
+    from . import findings as found
+
+    if not results.is_dir():
+        raise configuration.ConfigError(f"The folder {results} does not exist. Name the one that ofg-bench reproduce made.")
+    page = found.page(results)
+    if into is None:
+        print(page, end="")
+        return
+    into.write_text(page)
+    console.print(f"The findings are in {into}.")
 
 
 @app.command()
