@@ -93,10 +93,10 @@ def reproduce(
         _say_missing(config)
         runner.run(config, into / name, workers)
     if everything:
-        from . import claims
+        from . import sizes
 
-        console.print("[bold]and the article's claims by size, depth and k[/]")
-        claims.run(into / "claims")
+        console.print("[bold]and sizes: misses and operations by size, depth and k[/]")
+        sizes.run(into / "sizes")
     findings(into, into / "README.md")
     console.print(f"All of it is in {into}: tables, figures, report.html, manifest.json and the rows of each run.")
 

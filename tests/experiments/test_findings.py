@@ -9,21 +9,25 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from baselines import registry
-from experiments import claims as sizes
-from experiments import config, findings, metrics
-from experiments.findings import FAILS, HOLDS, OPEN, PART, UNMEASURED, Missing, Rate
+from experiments import config, metrics, scenarios, sizes
+from experiments.findings import page as page_of
+from experiments.findings.claims import CLAIMS, finding
+from experiments.findings.engines import QUESTIONS
+from experiments.findings.runs import FAILS, HOLDS, OPEN, PART, UNMEASURED, Missing, Rate, Runs, are_small
 
 RESULTS = Path(__file__).parents[2] / "results"
 N = 80  # cases of a kind: enough for a verdict
 
 
-class Fake(findings.Runs):
-    """Runs in memory with the methods and families of the catalogue; N hits of each family, answered as told.
+class Fake(Runs):
+    """Runs in memory with methods and families of the catalogue; N hits of each family, answered as told.
 
-    missed(method, scenario, i): the answer is wrong. late(method): its times are off by so much. slow(method, level): its net time.
+    missed(method, scenario, i): the answer is wrong; late(method, i): its time is off by so much; slow(method, level): net time.
     """
 
-    def __init__(self, missed=lambda method, scenario, i: False, late=lambda method, i: 0.0, slow=lambda method, level: 1.0, rows=None):
+    def __init__(
+        self, missed=lambda method, scenario, i: False, late=lambda method, i: 0.0, slow=lambda method, level: 1.0, rows=None
+    ):
         super().__init__("nowhere")
         self.missed, self.late, self.slow, self.rows = missed, late, slow, rows
 
@@ -36,18 +40,76 @@ class Fake(findings.Runs):
         return self._read[run]
 
     def _answers(self, chosen):
-        families = [c for c in chosen.scenarios if c.name not in ("large_mesh", "real_motion")]
-        cases = pd.DataFrame([{"case": f"{c.name}/{i}", "scenario": c.name, "level": float(i % 3), "question": QUESTION[c.name], "label": "hit", "start": "clear", "end": "clear",
-                               "gap": -0.5, "t_lo": 0.5, "t_hi": 0.5, "size": 1.0, "faces": 12, "certificate": "", "tags": '{"place": "inside"}'} for c in families for i in range(N)])
-        methods = [m.label for spec in chosen.methods if spec.startswith(("ofg", "brute")) for m in registry.make(spec)]
-        answers = pd.DataFrame([(m, c.case, "ok", not self.missed(m, c.scenario, int(c.case.split("/")[1])), 0.5 + self.late(m, int(c.case.split("/")[1])), "")
-                                for m in methods for c in cases.itertuples()], columns=["method", "case", "status", "hit", "time", "detail"])
+        families = dict.fromkeys(c.name for c in chosen.scenarios if c.name not in ("large_mesh", "real_motion"))
+        cases = pd.DataFrame(
+            [
+                {
+                    "case": f"{name}/{i}",
+                    "scenario": name,
+                    "level": float(i % 3),
+                    "question": ASKED[name],
+                    "label": "hit",
+                    "start": "clear",
+                    "end": "clear",
+                    "gap": -0.5,
+                    "t_lo": 0.5,
+                    "t_hi": 0.5,
+                    "size": 1.0,
+                    "faces": 12,
+                    "certificate": "",
+                    "tags": '{"place": "inside", "feature": "edge-edge"}',
+                }
+                for name in families
+                for i in range(N)
+            ]
+        )
+        methods = [
+            m.label
+            for spec in chosen.methods
+            if spec.startswith(("ofg", "brute", "fcl-convex-substeps"))
+            for m in registry.make(spec)
+        ]
+        answers = pd.DataFrame(
+            [
+                (
+                    m,
+                    c.case,
+                    "ok",
+                    not self.missed(m, c.scenario, int(c.case.split("/")[1])),
+                    0.5 + self.late(m, int(c.case.split("/")[1])),
+                    "",
+                )
+                for m in methods
+                for c in cases.itertuples()
+            ],
+            columns=["method", "case", "status", "hit", "time", "detail"],
+        )
         return metrics.judge(answers, cases)
 
     def times(self, run):
-        levels, methods = (20.0, 320.0, 5120.0), ("ofg k=8", "ofg k=64", "brute-force", "ofg k=8 repairs=all", "ofg k=8 toi=bisection")
-        return pd.DataFrame([{"case": f"{level}/{i}", "method": m, "level": level, "question": "overlap", "situation": "near", "net": self.slow(m, level) * 1e3, "ns": self.slow(m, level) * 1e3}
-                             for m in methods for level in levels for i in range(5)])
+        levels, methods = (20.0, 320.0, 5120.0), (
+            "ofg k=8",
+            "ofg k=64",
+            "brute-force",
+            "ofg k=8 repairs=all",
+            "ofg k=8 toi=bisection",
+        )
+        return pd.DataFrame(
+            [
+                {
+                    "case": f"{level}/{i}",
+                    "method": m,
+                    "level": level,
+                    "question": "overlap",
+                    "situation": "near",
+                    "net": self.slow(m, level) * 1e3,
+                    "ns": self.slow(m, level) * 1e3,
+                }
+                for m in methods
+                for level in levels
+                for i in range(5)
+            ]
+        )
 
     def file(self, name):
         if self.rows is None:
@@ -55,37 +117,59 @@ class Fake(findings.Runs):
         return self.rows
 
 
-QUESTION = {name: s.question for name, s in findings.tables.scenarios.scenarios().items()}
+ASKED = {name: s.question for name, s in scenarios.scenarios().items()}
 
 
 def said(title: str, runs) -> str:
-    return findings.finding(next(c for c in findings.CLAIMS if c.title.startswith(title)), runs).verdict
+    return finding(next(c for c in CLAIMS if c.title.startswith(title)), runs).verdict
 
 
 OF_MISSES = [  # the claim; whose answers decide it
-    ("Virtual edges stop", {"ofg k=8"}), ("Virtual edges, the start", {"brute-force"}), ("Step 1", {"ofg k=8 broad=start"}), ("Chords", {"ofg k=8"}),
-    ("The pieces", {"ofg k=8"}), ("Faces alone", {"brute-force"}), ("Units", {"ofg k=8"}), ("With all repairs", {"ofg k=8 repairs=all"})]
+    ("Virtual edges stop", {"ofg k=8"}),
+    ("Virtual edges, the start", {"brute-force"}),
+    ("Step 1", {"ofg k=8 broad=start"}),
+    ("Chords", {"ofg k=8"}),
+    ("The pieces", {"ofg k=8"}),
+    ("Faces alone", {"brute-force"}),
+    ("Units", {"ofg k=8"}),
+    ("With all repairs", {"ofg k=8 repairs=all"}),
+]
 
 
 @pytest.mark.parametrize("title, methods", OF_MISSES)
 def test_a_verdict_turns_when_the_rows_do(title, methods):
     assert said(title, Fake()) == HOLDS
     assert said(title, Fake(lambda method, scenario, i: method in methods)) == FAILS
-    assert said(title, Fake(lambda method, scenario, i: method not in methods and i < N / 2)) == HOLDS, "others' misses decide nothing"
+    assert (
+        said(title, Fake(lambda method, scenario, i: method not in methods and i < N / 2)) == HOLDS
+    ), "others' misses decide nothing"
 
 
-@pytest.mark.parametrize("title, family", [("Chords", "spin_side"), ("The pieces", "linked_tori"), ("Units", "sliver"), ("Virtual edges stop", "screw_wall"), ("With all repairs", "contained")])
+@pytest.mark.parametrize(
+    "title, family",
+    [
+        ("Chords", "spin_side"),
+        ("The pieces", "linked_tori"),
+        ("Units", "sliver"),
+        ("Virtual edges stop", "screw_wall"),
+        ("With all repairs", "contained"),
+    ],
+)
 def test_one_bad_family_is_a_part(title, family):
     assert said(title, Fake(lambda method, scenario, i: scenario == family)) == PART
 
 
 def test_a_higher_k():
     def missed_under(bound):
-        return lambda method, scenario, i: method.startswith("ofg k=") and " " not in method[4:] and i < bound(int(method.split("=")[1]), scenario)
+        return (
+            lambda method, scenario, i: method.startswith("ofg k=")
+            and " " not in method[4:]
+            and i < bound(float(method.split("=")[1]), scenario)
+        )
 
-    assert said("A higher k", Fake(missed_under(lambda k, scenario: 64 // k))) == HOLDS
-    assert said("A higher k", Fake(missed_under(lambda k, scenario: k // 8))) == FAILS
-    assert said("A higher k", Fake(missed_under(lambda k, scenario: 64 // k + 10 * (scenario == "sliver" and k == 16)))) == PART
+    assert said("A higher k", Fake(missed_under(lambda k, scenario: 64 / k))) == HOLDS
+    assert said("A higher k", Fake(missed_under(lambda k, scenario: min(k, 512) / 8))) == FAILS
+    assert said("A higher k", Fake(missed_under(lambda k, scenario: 64 / k + 10 * (scenario == "sliver" and k == 16)))) == PART
 
 
 def test_an_undivided_counterexample_is_one():
@@ -99,15 +183,26 @@ def test_times_of_impact(off, share, verdict):
     assert said("Relative velocity", runs) == said("Halving", runs) == verdict
 
 
-@pytest.mark.parametrize("slow, verdict", [(lambda m, level: 10.0 if m == "brute-force" else 1.0, HOLDS), (lambda m, level: 0.5 if m == "brute-force" else 1.0, FAILS),
-                                           (lambda m, level: level / 100 if m == "brute-force" else 1.0, PART)])
+@pytest.mark.parametrize(
+    "slow, verdict",
+    [
+        (lambda m, level: 10.0 if m == "brute-force" else 1.0, HOLDS),
+        (lambda m, level: 0.5 if m == "brute-force" else 1.0, FAILS),
+        (lambda m, level: level / 100 if m == "brute-force" else 1.0, PART),
+    ],
+)
 def test_cheaper_than_all_pairs(slow, verdict):
     assert said("Cheaper", Fake(slow=slow)) == verdict
 
 
 def native(own: float, small: float) -> pd.DataFrame:
-    return pd.DataFrame([{"situation": "apart", "faces": f, "method": m, "native": ns} for f, s in ((12, small), (320, 1.0))
-                         for m, ns in (("ofg k=8", own), ("ofg k=4", 0.1), ("fcl-convex", 100 * s), ("parry", 200.0))])
+    return pd.DataFrame(
+        [
+            {"situation": "apart", "faces": f, "method": m, "native": ns}
+            for f, s in ((12, small), (320, 1.0))
+            for m, ns in (("ofg k=8", own), ("ofg k=4", 0.1), ("fcl-convex", 100 * s), ("parry", 200.0))
+        ]
+    )
 
 
 def test_faster_than_the_engines():
@@ -122,27 +217,59 @@ def hulls(missed, pairs=lambda question, k: k * k, distances=2.0) -> pd.DataFram
     for faces in sizes.FACES:
         for k in (*(k for k in sizes.KS if k < faces), faces):
             for question, depth in (("overlap", "shallow"), ("overlap", "deep"), ("translation", ""), ("motion", "")):
-                made += [{"question": question, "faces": faces, "depth": depth, "case": i, "k": k, "repairs": False, "hit": k == faces or i >= missed(faces, depth), "distances": distances * faces,
-                          "face_pairs": pairs(question, k), "edge_faces": 0, "full_tests": 1, "evaluated": faces} for i in range(N)]
+                made += [
+                    {
+                        "question": question,
+                        "faces": faces,
+                        "depth": depth,
+                        "case": i,
+                        "k": k,
+                        "repairs": False,
+                        "hit": k == faces or i >= missed(faces, depth),
+                        "distances": distances * faces,
+                        "face_pairs": pairs(question, k),
+                        "edge_faces": 0,
+                        "full_tests": 1,
+                        "evaluated": faces,
+                    }
+                    for i in range(N)
+                ]
     return pd.DataFrame(made)
 
 
-@pytest.mark.parametrize("title, good, bad", [
-    ("k of 4 to 8", hulls(lambda f, d: 0), hulls(lambda f, d: 50)),
-    ("Small faces", hulls(lambda f, d: 0 if f < 1000 else 50), hulls(lambda f, d: 50 if f < 1000 else 0)),
-    ("Best for convex", hulls(lambda f, d: 0 if f < 1000 else 50), hulls(lambda f, d: 50 if f < 1000 else 0)),
-    ("Once bodies", hulls(lambda f, d: 50 * (d == "deep")), hulls(lambda f, d: 50 * (d == "shallow"))),
-    ("Selecting faces", hulls(lambda f, d: 0), hulls(lambda f, d: 0, distances=2.1)),
-    ("At most k^2", hulls(lambda f, d: 0), hulls(lambda f, d: 0, lambda q, k: k * k + 1)),
-    ("k^2 + 3k", hulls(lambda f, d: 0), hulls(lambda f, d: 0, lambda q, k: 5 * k * k)),
-])
+@pytest.mark.parametrize(
+    "title, good, bad",
+    [
+        ("k of 4 to 8", hulls(lambda f, d: 0), hulls(lambda f, d: 50)),
+        ("Small faces", hulls(lambda f, d: 0 if f < 1000 else 50), hulls(lambda f, d: 50 if f < 1000 else 0)),
+        ("Best for convex", hulls(lambda f, d: 0 if f < 1000 else 50), hulls(lambda f, d: 50 if f < 1000 else 0)),
+        ("Once bodies", hulls(lambda f, d: 50 * (d == "deep")), hulls(lambda f, d: 50 * (d == "shallow"))),
+        ("Selecting faces", hulls(lambda f, d: 0), hulls(lambda f, d: 0, distances=2.1)),
+        ("At most k^2", hulls(lambda f, d: 0), hulls(lambda f, d: 0, lambda q, k: k * k + 1)),
+        ("k^2 + 3k", hulls(lambda f, d: 0), hulls(lambda f, d: 0, lambda q, k: 5 * k * k)),
+    ],
+)
 def test_sizes_and_operations(title, good, bad):
     assert said(title, Fake(rows=good)) == HOLDS and said(title, Fake(rows=bad)) == FAILS
 
 
 def test_every_claim_is_turned_by_some_test():
-    tried = [t for t, _ in OF_MISSES] + ["A higher k", "Some concave", "Relative", "Halving", "Cheaper", "Faster", "k of", "Small", "Best", "Once", "Selecting", "At most", "k^2"]
-    assert all(any(c.title.startswith(t) for t in tried) for c in findings.CLAIMS)
+    tried = [t for t, _ in OF_MISSES] + [
+        "A higher k",
+        "Some concave",
+        "Relative",
+        "Halving",
+        "Cheaper",
+        "Faster",
+        "k of",
+        "Small",
+        "Best",
+        "Once",
+        "Selecting",
+        "At most",
+        "k^2",
+    ]
+    assert all(any(c.title.startswith(t) for t in tried) for c in CLAIMS)
 
 
 RATES = st.lists(st.tuples(st.integers(0, 60), st.integers(0, 60)).map(lambda t: (t[0], t[0] + t[1] + 1)), min_size=1, max_size=4)
@@ -151,35 +278,35 @@ RATES = st.lists(st.tuples(st.integers(0, 60), st.integers(0, 60)).map(lambda t:
 @given(RATES, st.data())
 def test_one_more_miss_makes_no_verdict_better(counts, data):
     def judged(counts):
-        return findings.are_small([Rate(c, n, *metrics.wilson(c, n)) for c, n in counts])
+        return are_small([Rate(c, n, *metrics.wilson(c, n)) for c, n in counts])
 
     i = data.draw(st.integers(0, len(counts) - 1))
     c, n = counts[i]
-    worse = [*counts[:i], (min(c + 1, n), n), *counts[i + 1:]]
+    worse = [*counts[:i], (min(c + 1, n), n), *counts[i + 1 :]]
     order = [HOLDS, OPEN, PART, FAILS]
     assert order.index(judged(worse)) >= order.index(judged(counts))
 
 
 def test_few_cases_say_nothing():
-    assert findings.are_small([Rate(0, 3, *metrics.wilson(0, 3))]) == OPEN
+    assert are_small([Rate(0, 3, *metrics.wilson(0, 3))]) == OPEN
 
 
 def test_what_is_missing_is_said(tmp_path):
-    text = findings.page(tmp_path)
-    assert text.count(f"| {UNMEASURED} |") == len(findings.CLAIMS)
-    for run in ("k", "faces", "rotation", "standard", "claims", "native"):
+    text = page_of(tmp_path)
+    assert text.count(f"| {UNMEASURED} |") == len(CLAIMS)
+    for run in ("k", "faces", "rotation", "standard", "sizes", "native"):
         assert f"run {run} is missing" in text
 
 
 def test_a_run_cut_short_is_said(tmp_path):
     (tmp_path / "rotation").mkdir()
-    assert said("Chords", findings.Runs(tmp_path)) == UNMEASURED
-    assert "run rotation is not finished" in findings.page(tmp_path)
+    assert said("Chords", Runs(tmp_path)) == UNMEASURED
+    assert "run rotation is not finished" in page_of(tmp_path)
 
 
 @pytest.fixture(scope="module")
 def page():
-    return findings.page(RESULTS)
+    return page_of(RESULTS)
 
 
 def test_the_committed_page_is_what_the_committed_runs_make(page):
@@ -195,12 +322,15 @@ def test_it_is_short_and_its_links_lead_somewhere(page):
 
 
 def test_its_engine_tables_are_the_accuracy_tables(page):
-    board = findings.Runs(RESULTS).board
-    for question in findings.QUESTIONS:
+    board = Runs(RESULTS).board
+    for question in QUESTIONS:
         csv = RESULTS / board / "tables" / f"accuracy-{question}.csv"
         if not csv.exists():
             pytest.skip("no run has every family")
         for row in pd.read_csv(csv).itertuples():
             if row.answered:
                 cell = str(Rate(row.misses, row.hits, row.miss_low, row.miss_high))
-                assert any(line.startswith(f"| {row.method} |") and cell in line for line in page.splitlines()), (row.method, cell)
+                assert any(line.startswith(f"| {row.method} |") and cell in line for line in page.splitlines()), (
+                    row.method,
+                    cell,
+                )

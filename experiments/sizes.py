@@ -1,8 +1,7 @@
-"""What the article claims about sizes and operations, and no run of the catalogue holds: python -m experiments.claims [--cases 400]
+"""Misses and operations by size, depth and k, which no run of the catalogue holds: python -m experiments.sizes [--cases 400]
 
-Pairs of random hulls of 12 to 5,120 faces. Overlaps at a shallow and at a large depth, certified: what each k misses, and the operations
-counted. Flights of the same hulls, with and without a turn: operations alone. The rows go to results/claims; experiments/findings.py
-reads them.
+Pairs of random hulls of 12 to 5,120 faces. Overlaps at a shallow and at a large depth, certified: what each k misses, and the
+operations counted. Flights of the same hulls, with and without a turn: operations alone. The rows go to results/sizes.
 """
 
 from __future__ import annotations
@@ -60,8 +59,16 @@ def ask(query: Query, faces: int, depth: str, case: int) -> Iterator[dict]:
     variants = [{"k": k} for k in (*(k for k in KS if k < faces), faces)] + [{"repairs": "all"}]
     for options in variants:
         answer = ofg.ask(query, **options)
-        yield {"question": query.question, "faces": faces, "depth": depth, "case": case, "k": options.get("k", 0),
-               "repairs": "repairs" in options, "hit": answer.hit, **{name: answer.counts[name] for name in COUNTED}}
+        yield {
+            "question": query.question,
+            "faces": faces,
+            "depth": depth,
+            "case": case,
+            "k": options.get("k", 0),
+            "repairs": "repairs" in options,
+            "hit": answer.hit,
+            **{name: answer.counts[name] for name in COUNTED},
+        }
 
 
 def measure(cases: int, seed: int) -> pd.DataFrame:
@@ -83,7 +90,11 @@ def measure(cases: int, seed: int) -> pd.DataFrame:
 def misses(rows: pd.DataFrame) -> pd.DataFrame:
     """Misses of certified overlaps by faces, depth and k, with Wilson intervals."""
     part = rows[rows.question == "overlap"]
-    counts = part.groupby(["faces", "depth", "k", "repairs"], sort=False).hit.agg(hits="size", misses=lambda h: int((~h).sum())).reset_index()
+    counts = (
+        part.groupby(["faces", "depth", "k", "repairs"], sort=False)
+        .hit.agg(hits="size", misses=lambda h: int((~h).sum()))
+        .reset_index()
+    )
     counts["miss_low"], counts["miss_high"] = zip(*[metrics.wilson(m, n) for m, n in zip(counts.misses, counts.hits)])
     return counts
 
@@ -92,15 +103,19 @@ def operations(rows: pd.DataFrame) -> pd.DataFrame:
     """Operations as written, by question, faces and k: the largest and the mean share of each of the article's bounds."""
     part = rows[~rows.repairs]
     shares = part[["question", "faces", "k"]].assign(
-        distances=part.distances / (2 * part.faces), evaluated=part.evaluated / (2 * part.faces), pairs=part.face_pairs / part.k**2,
-        after_selection=(part.face_pairs + part.edge_faces) / (part.k**2 + 3 * part.k), full_tests=part.full_tests / part.k**2)
+        distances=part.distances / (2 * part.faces),
+        evaluated=part.evaluated / (2 * part.faces),
+        pairs=part.face_pairs / part.k**2,
+        after_selection=(part.face_pairs + part.edge_faces) / (part.k**2 + 3 * part.k),
+        full_tests=part.full_tests / part.k**2,
+    )
     named = {f"{name}_{how}": (name, how) for name in shares.columns[3:] for how in ("mean", "max")}
     return shares.groupby(["question", "faces", "k"], sort=False).agg(queries=("k", "size"), **named).reset_index()
 
 
 def save(rows: pd.DataFrame, made: dict, folder: Path) -> None:
     store = Store(folder)
-    store.write(rows, "claims.parquet")
+    store.write(rows, "sizes.parquet")
     store.write_text(json.dumps(made, indent=1) + "\n", "made.json")
     for name, table in (("misses", misses(rows)), ("operations", operations(rows))):
         store.write_text(table.to_csv(index=False, float_format="%.6g", lineterminator="\n"), "tables", f"{name}.csv")
@@ -109,15 +124,24 @@ def save(rows: pd.DataFrame, made: dict, folder: Path) -> None:
 
 def run(folder: Path, cases: int = 400, seed: int = 2004) -> None:
     """Measure into the folder, unless it is done."""
-    if not (folder / "claims.parquet").exists():
-        made = {"started": manifest.now(), "commit": manifest.commit(), "build": manifest.build(), "before": manifest.machine(), "cases": cases, "seed": seed}
+    if not (folder / "sizes.parquet").exists():
+        made = {
+            "started": manifest.now(),
+            "commit": manifest.commit(),
+            "build": manifest.build(),
+            "before": manifest.machine(),
+            "cases": cases,
+            "seed": seed,
+        }
         save(measure(cases, seed), {**made, "finished": manifest.now()}, folder)
 
 
 def main(
-    cases: Annotated[int, typer.Option(min=4, help="overlaps for each size and depth; a quarter of it at 5,120 faces, and of flights")] = 400,
+    cases: Annotated[
+        int, typer.Option(min=4, help="overlaps for each size and depth; a quarter of it at 5,120 faces, and of flights")
+    ] = 400,
     seed: Annotated[int, typer.Option(help="of bodies and poses")] = 2004,
-    out: Annotated[Path, typer.Option(help="folder")] = Path("results", "claims"),
+    out: Annotated[Path, typer.Option(help="folder")] = Path("results", "sizes"),
 ) -> None:
     run(out, cases, seed)
     print((out / "tables" / "misses.md").read_text())
