@@ -20,16 +20,21 @@ N = 80  # cases of a kind: enough for a verdict
 
 
 class Fake(Runs):
-    """Runs in memory with methods and families of the catalogue; N hits of each family, answered as told.
+    """Runs in memory with methods and families of the catalogue; N cases of each family, answered as told.
 
-    missed(method, scenario, i): the answer is wrong; late(method, i): its time is off by so much; slow(method, level): net time.
+    wrong(method, scenario, i): the answer is; late(method, i): its time is off by so much; slow(method, level): net time.
     """
 
     def __init__(
-        self, missed=lambda method, scenario, i: False, late=lambda method, i: 0.0, slow=lambda method, level: 1.0, rows=None
+        self,
+        wrong=lambda method, scenario, i: False,
+        label="hit",
+        late=lambda method, i: 0.0,
+        slow=lambda method, level: 1.0,
+        rows=None,
     ):
         super().__init__("nowhere")
-        self.missed, self.late, self.slow, self.rows = missed, late, slow, rows
+        self.wrong, self.label, self.late, self.slow, self.rows = wrong, label, late, slow, rows
 
     board = "standard"
     finished = ()
@@ -48,10 +53,10 @@ class Fake(Runs):
                     "scenario": name,
                     "level": float(i % 3),
                     "question": ASKED[name],
-                    "label": "hit",
+                    "label": self.label,
                     "start": "clear",
                     "end": "clear",
-                    "gap": -0.5,
+                    "gap": -0.5 if self.label == "hit" else 0.5,
                     "t_lo": 0.5,
                     "t_hi": 0.5,
                     "size": 1.0,
@@ -75,7 +80,7 @@ class Fake(Runs):
                     m,
                     c.case,
                     "ok",
-                    not self.missed(m, c.scenario, int(c.case.split("/")[1])),
+                    (self.label == "hit") != self.wrong(m, c.scenario, int(c.case.split("/")[1])),
                     0.5 + self.late(m, int(c.case.split("/")[1])),
                     "",
                 )
@@ -172,6 +177,15 @@ def test_a_higher_k():
     assert said("A higher k", Fake(missed_under(lambda k, scenario: 64 / k + 10 * (scenario == "sliver" and k == 16)))) == PART
 
 
+def test_false_alarms():
+    assert said("What it calls", Fake(label="clear")) == HOLDS
+    assert said("What it calls", Fake(lambda method, scenario, i: method == "ofg k=8", label="clear")) == FAILS
+    assert (
+        said("What it calls", Fake(lambda method, scenario, i: scenario == "graze" or scenario == "contact", label="clear"))
+        == PART
+    )
+
+
 def test_an_undivided_counterexample_is_one():
     assert said("Some concave", Fake()) == FAILS, "nothing missed: no counterexample"
     assert said("Some concave", Fake(lambda method, scenario, i: i == 7)) == HOLDS
@@ -256,6 +270,7 @@ def test_sizes_and_operations(title, good, bad):
 def test_every_claim_is_turned_by_some_test():
     tried = [t for t, _ in OF_MISSES] + [
         "A higher k",
+        "What it calls",
         "Some concave",
         "Relative",
         "Halving",
