@@ -48,8 +48,10 @@ class OpposingFaceGeometry(Method):
         "containment": False,
         "earliest": False,
         "iterations": 20,
+        "screen": False,
         "precision": "double",
     }
+    unlimited = frozenset({"k"})
 
     def __init__(self, **parameters):
         super().__init__(**parameters)

@@ -33,6 +33,8 @@ def discrete(a: Body, b: Body, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, 
     broad: "swept" (step 1 with bounding spheres swept along the motion) or "start" (at the start pose, the literal reading).
     concave: "object" (OFG at the object level picks one pair of pieces), "undivided" (the surface as one mesh) or "all-pairs" of pieces.
     precision: "double" or "float" (the relative pose is in double always).
+    screen: True to let a plane between the whole bodies settle "no" before the steps. The answers are the same, sooner where bodies are
+    near and apart, soonest in `discrete_many`; the counts are then of what was done. Adaptive k always does it.
     repairs: "none", "all", "all-but-X", "X" or "X+Y" of the names below; or one by one:
     selection="point-triangle" (point-triangle), adaptive_k=True (adaptive-k), broad="swept" (swept-spheres), both_vertices=True
     (both-vertices), edge_edge=True (edge-edge), selections=3 (selection-times), arc_tolerance=1e-6 (arcs: chords stray by no more

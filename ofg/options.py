@@ -64,12 +64,12 @@ def core_options(*, k: int = 8, toi: str = "velocity", repairs: str = "none", **
         raise ValueError(
             f"arc_tolerance = {o.arc_tolerance} must lie in [0, 1): the share of A's radius that a chord may stray by; 0 cuts no arcs."
         )
-    for name in ("adaptive_k", "both_vertices", "edge_edge", "containment", "earliest"):
+    for name in ("adaptive_k", "both_vertices", "edge_edge", "containment", "earliest", "screen"):
         setattr(o, name, bool(chosen.pop(name, False)))
     if chosen:
         raise TypeError(
             f"OFG has no option '{next(iter(chosen))}'; it has k, toi, broad, concave, iterations, repairs, selection, adaptive_k, "
-            "both_vertices, edge_edge, selections, arc_tolerance, containment, earliest."
+            "both_vertices, edge_edge, selections, arc_tolerance, containment, earliest, screen."
         )
     return o
 

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "ofg/batch.hpp"
 #include "ofg/brute_force.hpp"
-#include "ofg/ofg.hpp"
 
 namespace {
 
@@ -22,13 +22,25 @@ Hull read_hull(std::istream& in) {
 }
 
 template <class T>
+ofg::Body<T> convex(const Hull& h) {
+  ofg::Body<T> body;
+  body.whole = ofg::Mesh<T>(h.v.data(), h.v.size() / 3, h.f.data(), h.f.size() / 3, true);
+  body.close();
+  return body;
+}
+
+template <class T>
 struct Bodies {
-  ofg::Mesh<T> a, b;
+  ofg::Body<T> a, b;
   ofg::Workspace<T> w;
-  explicit Bodies(const Cell& c)
-      : a(c.a.v.data(), c.a.v.size() / 3, c.a.f.data(), c.a.f.size() / 3, true),
-        b(c.b.v.data(), c.b.v.size() / 3, c.b.f.data(), c.b.f.size() / 3, true) {
+  std::vector<ofg::Pose> poses_a, poses_b;
+  std::vector<ofg::Answer> answers;
+  explicit Bodies(const Cell& c) : a(convex<T>(c.a)), b(convex<T>(c.b)), answers(c.size()) {
     w.reserve(a, b);
+    for (const double* p = c.poses.data(); p < c.poses.data() + c.poses.size(); p += 14) {
+      poses_a.push_back({{p[0], p[1], p[2], p[3]}, {p[4], p[5], p[6]}});
+      poses_b.push_back({{p[7], p[8], p[9], p[10]}, {p[11], p[12], p[13]}});
+    }
   }
 };
 
@@ -36,12 +48,21 @@ template <int Last, class T>
 Timed ofg_method(const std::string& name, const std::shared_ptr<Bodies<T>>& bodies, const ofg::Options& o) {
   return {name, [=](const Cell& c) {
             long hits = 0;
-            for (std::size_t i = 0; i < c.poses.size(); i += 14) {
-              const double* p = &c.poses[i];
-              const ofg::Track track({{p[0], p[1], p[2], p[3]}, {p[4], p[5], p[6]}},
-                                     {{p[7], p[8], p[9], p[10]}, {p[11], p[12], p[13]}});
-              hits += ofg::overlap<Last>(bodies->a, bodies->b, track, o, bodies->w).hit;
-            }
+            for (std::size_t i = 0; i < c.size(); ++i)
+              hits +=
+                  ofg::overlap<Last>(bodies->a.whole, bodies->b.whole, {bodies->poses_a[i], bodies->poses_b[i]}, o, bodies->w).hit;
+            return hits;
+          }};
+}
+
+// The same questions in one call.
+template <class T>
+Timed batched(const std::string& name, const std::shared_ptr<Bodies<T>>& bodies, const ofg::Options& o) {
+  return {name, [=](const Cell& c) {
+            ofg::overlap_many(bodies->a, bodies->b, bodies->poses_a.data(), bodies->poses_b.data(), c.size(), o, bodies->w,
+                              bodies->answers.data());
+            long hits = 0;
+            for (const auto& answer : bodies->answers) hits += answer.hit;
             return hits;
           }};
 }
@@ -57,6 +78,9 @@ void ofg_methods(const Cell& c, const std::string& precision, std::vector<Timed>
     out.push_back(ofg_method<3, T>(name + " to step 3", bodies, o));
     out.push_back(ofg_method<6, T>(name + " to step 6", bodies, o));
     out.push_back(ofg_method<8, T>(name, bodies, o));
+    o.screen = true;
+    out.push_back(ofg_method<8, T>(name + " screened", bodies, o));
+    out.push_back(batched<T>(name + " screened in batch", bodies, o));
   }
   ofg::Options all;
   all.k = 1 << 30;
@@ -64,6 +88,8 @@ void ofg_methods(const Cell& c, const std::string& precision, std::vector<Timed>
   ofg::Options repaired;
   repaired.adaptive_k = repaired.containment = true, repaired.nearest = ofg::Nearest::triangle;
   out.push_back(ofg_method<8, T>("OFG " + precision + " repaired", bodies, repaired));
+  repaired.screen = true;
+  out.push_back(batched<T>("OFG " + precision + " repaired screened in batch", bodies, repaired));
 }
 
 }  // namespace

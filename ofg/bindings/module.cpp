@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "ofg/batch.hpp"
 #include "ofg/brute_force.hpp"
-#include "ofg/ofg.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -121,6 +121,11 @@ void ask_range(Algorithm how, bool moving, const Solid& a, const Solid& b, const
                const double* mb, const ofg::Options& o, std::size_t from, std::size_t to, ofg::Answer* out) {
   ofg::Workspace<T> w;
   w.reserve(a.as<T>(), b.as<T>());
+  if (how == Algorithm::ofg && !moving) {
+    const auto *p = reinterpret_cast<const ofg::Pose*>(pa), *q = reinterpret_cast<const ofg::Pose*>(pb);
+    ofg::overlap_many(a.as<T>(), b.as<T>(), p + from, q + from, to - from, o, w, out + from);
+    return;
+  }
   for (std::size_t i = from; i < to; ++i) {
     const ofg::Track track(pose_of(pa + 7 * i), pose_of(pb + 7 * i), motion_of(ma + 7 * i), motion_of(mb + 7 * i));
     out[i] = ask(how, moving, a, b, track, o, w);
@@ -191,6 +196,19 @@ nb::ndarray<nb::numpy, bool> triangles_meet(Doubles pairs) {
   return out;
 }
 
+// The support function by table, relative to the centre in units of the radius: a point per axis. For the tests.
+nb::ndarray<nb::numpy, double> least_points(const Solid& solid, Doubles axes) {
+  double* points;
+  auto out = array<double>({axes.shape(0), 3}, points);
+  for (std::size_t i = 0; i < axes.shape(0); ++i) {
+    float v[3], p[3];
+    for (int j = 0; j < 3; ++j) v[j] = float(axes.data()[3 * i + std::size_t(j)]);
+    ofg::kernels<double>.extreme(solid.fine.whole.supports.view(), v, p);
+    for (int j = 0; j < 3; ++j) points[3 * i + std::size_t(j)] = p[j];
+  }
+  return out;
+}
+
 NB_MODULE(_core, m) {
   m.def(
       "set_isa", [](int isa) { return ofg::set_isa(ofg::Isa(isa)); }, "isa"_a,
@@ -199,6 +217,7 @@ NB_MODULE(_core, m) {
   m.attr("build") = OFG_BUILD;
   m.def("triangles_meet", &triangles_meet<double>, "pairs"_a);
   m.def("triangles_meet_float", &triangles_meet<float>, "pairs"_a);
+  m.def("least_points", &least_points, "solid"_a, "axes"_a);
   nb::class_<Solid>(m, "Solid")
       .def(nb::init<Doubles, Ints, bool, const std::vector<Doubles>&, const std::vector<Ints>&>(), "vertices"_a, "faces"_a,
            "convex"_a, "piece_vertices"_a, "piece_faces"_a);
@@ -222,7 +241,8 @@ NB_MODULE(_core, m) {
       .def_rw("selections", &ofg::Options::selections)
       .def_rw("arc_tolerance", &ofg::Options::arc_tolerance)
       .def_rw("containment", &ofg::Options::containment)
-      .def_rw("earliest", &ofg::Options::earliest);
+      .def_rw("earliest", &ofg::Options::earliest)
+      .def_rw("screen", &ofg::Options::screen);
   nb::class_<Prepared>(m, "Prepared")
       .def(nb::init<nb::object, nb::object, Doubles, Doubles, const ofg::Options&, int, bool, bool>(), "a"_a, "b"_a, "poses"_a,
            "motions"_a, "options"_a, "algorithm"_a, "moving"_a, "single"_a)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "separation.hpp"
+#include "support_map.hpp"
 
 namespace ofg {
 
@@ -98,6 +99,7 @@ struct Mesh {
   Blocks<T> blocks;                            // the same centres, for the selection
   std::vector<T> corners;                      // of each face: nine coordinates in a row
   Cloud<T> cloud;                              // the vertices, for supports
+  SupportMap supports;                         // the same, by table
   std::vector<T> face_radius;                  // from a face's centre to its farthest vertex, rounded up
   Vec3<T> centre;                              // mean of the vertices
   T radius = 0;                                // from `centre` to the farthest vertex, rounded up
@@ -144,6 +146,7 @@ struct Mesh {
     blocks = Blocks<T>(centres);
     for (std::size_t i = 0; i < n; ++i) cloud.push(vertices[i]);
     cloud.pad();
+    supports = SupportMap(vertices.x.data(), vertices.y.data(), vertices.z.data(), int(n), centre, radius);
   }
 
   int size() const { return int(faces.size()); }

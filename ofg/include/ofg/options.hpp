@@ -14,6 +14,7 @@ struct Options {
   Broad broad = Broad::swept;         // step 1 at the start pose, or with spheres swept along the motion
   Concave concave = Concave::object;  // which pieces of a concave body are asked
   int iterations = 20;                // of the bisection: it ends with a bracket of 2^-iterations of the step
+  bool screen = false;                // a plane between the whole bodies settles "no" before the steps: the same answers, sooner
 
   // Repairs of the article's method, each on its own; off as written.
   Nearest nearest = Nearest::centre;  // select by distance to the face's centre, or to the face itself

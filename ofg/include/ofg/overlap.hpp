@@ -1,6 +1,7 @@
 // Discrete OFG: do two meshes meet at one pair of poses? Steps numbered as in the article.
 #pragma once
 #include "containment.hpp"
+#include "screen.hpp"
 #include "selection.hpp"
 
 namespace ofg {
@@ -46,7 +47,8 @@ bool walled_off(const Selection<T>& a, const Selection<T>& b, T gap, Vec3<T>& ax
 // the planes of the faces before the first row, the axis that kept a pair apart after it, and a search for any plane after the
 // row.
 template <class T>
-bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Vec3<T> axis, Workspace<T>& w, Answer& answer) {
+bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Vec3<T> axis, Screened screened, Workspace<T>& w,
+                Answer& answer) {
   const T slack = rounding<T> * scale, gap = 4 * slack;
   const CloudView<T> cloud_a = a.cloud(), cloud_b = b.cloud();
   const auto along = [&](const Vec3<T>& v) { return support(cloud_a, cloud_b, v); };
@@ -55,7 +57,7 @@ bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Vec3<T> a
     answer.counts.face_pairs = all;
     return false;
   };
-  if (walled_off(a, b, gap, axis, along)) return settled();
+  if (screened != Screened::meeting && walled_off(a, b, gap, axis, along)) return settled();
   const TriangleView<T> faces = b.view();
   for (int i = 0; i < a.size(); ++i) {
     if (i == 1 && separated(axis, gap, along)) return settled();
@@ -89,6 +91,7 @@ template <class T>
 struct Near {
   Transform<T> to_b, to_a;
   double slack;
+  Screened screened;
 };
 
 // Steps 2 to 8 with one choice of k.
@@ -105,7 +108,7 @@ void oppose(const Mesh<T>& a, const Mesh<T>& b, const Near<T>& near, const Optio
   if (spheres_apart(Vec3<double>(centre_a - w.b.centre), double(w.a.radius) + double(w.b.radius) + near.slack)) return;  // 6
   if constexpr (Last < 8) return;
   move(near.to_b, w.a);
-  answer.hit = faces_meet(w.a, w.b, scale_of(a, b, near.to_b.p), centre_a - w.b.centre, w, answer);  // 8
+  answer.hit = faces_meet(w.a, w.b, scale_of(a, b, near.to_b.p), centre_a - w.b.centre, near.screened, w, answer);  // 8
   if (answer.hit) answer.found = Found::start;
 }
 
@@ -125,15 +128,19 @@ bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T
 // Convex or not, `a` and `b` are tested as surfaces (with `containment` as solids). Does not allocate once `w` has room for both.
 // Adaptive k starts from k, and grows only where neither faces that meet nor a plane between the bodies settles the matter.
 // Last: the step after which to stop, so that the cost of each can be measured; nothing else has a use for less than 8.
+// screened: what a screen of this pair has said already.
 template <int Last = 8, class T>
-Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o, Workspace<T>& w) {
+Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o, Workspace<T>& w,
+               Screened screened = Screened::unknown) {
   Answer answer;
   answer.counts.spheres = answer.counts.steps = 1;
   const Transform<double> pose = track.at(0);
   const Vec3<double> apart = pose(Vec3<double>(a.centre)) - Vec3<double>(b.centre);
   const double slack = rounding<T> * (length(pose.p) + a.extent + b.extent);
   if (detail::spheres_apart(apart, double(a.radius) + double(b.radius) + slack)) return answer;  // 1
-  const detail::Near<T> near{Transform<T>(pose), Transform<T>(pose.inverse()), slack};
+  const bool screens = (o.screen || o.adaptive_k) && screened == Screened::unknown;
+  if (screens && detail::screened_apart(a, b, pose, {}, 4 * slack)) return answer;
+  const detail::Near<T> near{Transform<T>(pose), Transform<T>(pose.inverse()), slack, screened};
   if (detail::holds(a, b, near.to_b, o, answer)) {
     answer.hit = true;
     return answer;

@@ -177,7 +177,7 @@ bool surfaces_meet(const Mesh<T>& a, const Transform<double>& pose, Workspace<T>
   const Transform<T> to_b(pose);
   gather(a, w.a);
   move(to_b, w.a);
-  return faces_meet(w.a, w.b, scale, to_b(w.a.centre) - w.b.centre, w, answer);
+  return faces_meet(w.a, w.b, scale, to_b(w.a.centre) - w.b.centre, Screened::unknown, w, answer);
 }
 
 // One plane between B's selection and A's at both ends keeps all chords away: none of the tests of the window can hit.
@@ -358,6 +358,9 @@ Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Optio
           ? detail::spheres_apart(track.between(ca, cb, 0), double(a.radius) + double(b.radius) + slack(window.start))
           : detail::swept_spheres_apart(a, b, track, 0, 1, slack(window.start) + slack(window.end));
   if (rejected) return answer;
+  const double room = 4 * (slack(window.start) + slack(window.end));
+  const bool screens = (o.screen || o.adaptive_k) && !track.turns();
+  if (screens && detail::screened_apart(a, b, window.start, window.end.p - window.start.p, room)) return answer;
   if (detail::holds(a, b, Transform<T>(window.start), o, answer)) {
     answer.hit = true, answer.time = 0;
     return answer;

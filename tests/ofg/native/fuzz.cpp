@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "ofg/batch.hpp"
 #include "ofg/brute_force.hpp"
 #include "shapes.hpp"
 
@@ -95,6 +96,14 @@ static bool same(const ofg::Answer& a, const ofg::Answer& b) {
          a.counts.evaluated == b.counts.evaluated;
 }
 
+// A screen may change what it costs, and nothing else; nor may asking several poses at once. (What is "inside" a mesh that
+// bounds no solid, as many do here, is anything: a plane between the two may well contradict it.)
+static bool same_but_for_cost(const ofg::Answer& a, const ofg::Answer& b) {
+  if (a.found == ofg::Found::inside) return true;
+  return a.hit == b.hit && (a.time == b.time || (a.time != a.time && b.time != b.time)) && a.found == b.found &&
+         a.face_a == b.face_a && a.face_b == b.face_b && a.piece_a == b.piece_a && a.piece_b == b.piece_b;
+}
+
 template <class T>
 const char* fault(Pair<T>& pair, const Asked& x) {
   const ofg::Track still(x.p, x.q), moving(x.p, x.q, x.m, x.n);
@@ -107,6 +116,14 @@ const char* fault(Pair<T>& pair, const Asked& x) {
       if (isa == 0) first[i] = now[i];
       if (!same(first[i], now[i])) return "instruction sets disagree";
     }
+    ofg::Options o = x.o;
+    o.screen = true;
+    if (!same_but_for_cost(first[0], ofg::overlap(pair.a, pair.b, still, o, pair.w))) return "a screen changed an overlap";
+    if (!same_but_for_cost(first[1], ofg::sweep(pair.a, pair.b, moving, o, pair.w))) return "a screen changed a sweep";
+    const ofg::Pose p[2] = {x.q, x.p}, q[2] = {x.p, x.q};
+    ofg::Answer two[2];
+    ofg::overlap_many(pair.a, pair.b, p, q, 2, o, pair.w, two);
+    if (!same_but_for_cost(first[0], two[1])) return "a batch changed an overlap";
   }
   for (const auto& a : first) {
     if (a.time == a.time && !(a.time >= 0 && a.time <= 1)) return "a time outside the step";

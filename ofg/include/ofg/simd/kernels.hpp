@@ -65,6 +65,30 @@ struct BoxView {
   const T *lo[3], *hi[3];
 };
 
+constexpr int list_unit = 16;  // points in a list of a SupportMap: a register of the widest set in single precision
+
+// For each cell of a cube map of directions, side x side on each of six faces, lists of the points extreme there.
+struct SupportView {
+  const float* points;
+  const int* first;  // list of each cell; then the end
+  int side;
+};
+
+// Pairs of posed bodies, seen from B's frame and B's centre, in units of the sum of their radii.
+constexpr int most_posed = 64;
+struct PosedPairs {
+  float r[9][most_posed];        // the rotation of A, times its radius; by rows
+  float between[3][most_posed];  // the centre of A
+  float size_b[most_posed];      // radius of B
+  float gap[most_posed];         // that makes them apart; NaN: nobody asks
+};
+
+// What PosedPairs need to know of two bodies, and the gap that counts: rounding (1 + way) + slack (extents + way), the way in units
+// of the sum of the radii first and then as it is.
+struct PairOfBodies {
+  double centre_a[3], centre_b[3], radius_a, radius_b, rounding, slack, extents;
+};
+
 template <class T>
 struct Kernels {
   int (*nearest)(const BlockView<T>&, const T* point, int k, NearestScratch<T>&, Candidate<T>* found, int* evaluated);
@@ -76,6 +100,9 @@ struct Kernels {
   void (*segments_miss)(const TriangleView<T>&, int n, const T* segment, T slack, unsigned char* miss);
   void (*boxes_apart)(const BoxView<T>&, int n, const T* box, T slack, unsigned char* apart);
   void (*transform)(T* x, T* y, T* z, int n, const T* rows, const T* shift);
+  void (*extreme)(const SupportView&, const float* axis, float* point);
+  void (*portal)(const SupportView& a, const SupportView& b, const PosedPairs&, int n, unsigned char* verdict);
+  void (*pose_pairs)(const PairOfBodies&, const double* poses_a, const double* poses_b, int n, int padded, PosedPairs&);
 };
 
 }  // namespace ofg

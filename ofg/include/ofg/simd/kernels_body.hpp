@@ -39,13 +39,20 @@ OFG_INLINE typename Lane<T>::V all(T x) {
   return v + x;
 }
 
+// Halves against halves: by registers while there are two lanes of 16 bytes or more, then by shuffles.
 template <class T>
 OFG_INLINE T least_lane(typename Lane<T>::V v) {
-  T half[OFG_BYTES / sizeof(T)];
-  __builtin_memcpy(half, &v, sizeof v);
-  for (int step = OFG_BYTES / int(sizeof(T)) / 2; step > 0; step /= 2)
-    for (int l = 0; l < step; ++l) half[l] = half[l + step] < half[l] ? half[l + step] : half[l];
-  return half[0];
+  typedef T Quarter __attribute__((vector_size(16)));
+  Quarter part[OFG_BYTES / 16];
+  __builtin_memcpy(part, &v, sizeof v);
+  for (int step = OFG_BYTES / 32; step > 0; step /= 2)
+    for (int i = 0; i < step; ++i) part[i] = part[i + step] < part[i] ? part[i + step] : part[i];
+  Quarter q = part[0];
+  if constexpr (sizeof(T) == 4) {
+    const Quarter r = {q[2], q[3], q[0], q[1]};
+    q = r < q ? r : q;
+  }
+  return q[1] < q[0] ? q[1] : q[0];
 }
 
 // Squared distances from a point to n points, n a multiple of block_faces.
@@ -396,10 +403,12 @@ static void transform(T* x, T* y, T* z, int n, const T* m, const T* p) {
   }
 }
 
+#include "portal_body.hpp"
+
 template <class T>
 Kernels<T> kernels() {
-  return {nearest<T>,    support<T>,       farthest<T>,    planes_apart<T>, edges_apart<T>,
-          planes_gap<T>, segments_miss<T>, boxes_apart<T>, transform<T>};
+  return {nearest<T>,       support<T>,     farthest<T>,  planes_apart<T>, edges_apart<T>, planes_gap<T>,
+          segments_miss<T>, boxes_apart<T>, transform<T>, extreme,         portal,         pose_pairs};
 }
 
 #undef OFG_INLINE
