@@ -197,6 +197,11 @@ def test_times_of_impact(off, share, verdict):
     assert said("Relative velocity", runs) == said("Halving", runs) == verdict
 
 
+def test_hits_without_a_time():
+    assert said("Faces that meet at the start", Fake(late=lambda method, i: float("nan") if i == 0 else 0.0)) == HOLDS
+    assert said("Faces that meet at the start", Fake(late=lambda method, i: float("nan") if i % 2 else 0.0)) == FAILS
+
+
 @pytest.mark.parametrize(
     "slow, verdict",
     [
@@ -271,6 +276,7 @@ def test_every_claim_is_turned_by_some_test():
     tried = [t for t, _ in OF_MISSES] + [
         "A higher k",
         "What it calls",
+        "Faces that meet at the start",
         "Some concave",
         "Relative",
         "Halving",
