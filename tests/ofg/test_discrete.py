@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import trimesh
 
 import ofg
 from ofg import Body, Pose
@@ -136,3 +137,31 @@ def test_a_face_with_a_doubled_corner_is_still_selected():
     here, rest = np.array([[1.0, 0, 0, 0, 0, 0, 0]]), np.zeros((1, 7))
     hit, *_ = ofg._core.ask_many(a, b, here, here, rest, rest, options, 0, False, False, 1)
     assert hit[0]
+
+
+def with_slivers(rng, mesh):
+    """Each edge gets a vertex on it, off by rounding, and the gap to the face across is closed by a face of next to no area."""
+    vertices, faces, seen = list(mesh.vertices), [], set()
+    for a, b, c in mesh.faces:
+        edge = frozenset((a, b))
+        if edge in seen:
+            faces.append((a, b, c))
+            continue
+        seen.add(edge)
+        share, middle = rng.uniform(0.2, 0.8), len(vertices)
+        vertices.append(vertices[a] * (1 - share) + vertices[b] * share + rng.normal(size=3) * 1e-16)
+        faces += [(a, middle, c), (middle, b, c), (a, b, middle)]
+    return Body.mesh(np.array(vertices), np.array(faces), "slivers")
+
+
+def test_the_plane_of_a_sliver_is_no_wall():
+    """Once the plane of a face was taken for a wall if the other body was in front of it. A sliver's normal is rounding, so bodies deep
+    in each other were "apart"; now the points on both sides of it are tried."""
+    rng = np.random.default_rng(1)
+    ball = trimesh.creation.icosphere(1)
+    for _ in range(5):
+        a, b = (with_slivers(rng, ball.copy().apply_scale(rng.uniform(0.3, 1, 3))) for _ in range(2))
+        pa, pb = rows_of_poses(rng, 200, 0), rows_of_poses(rng, 200, 1.2)
+        want = ofg.brute_force_many(a, b, pa, pb).hit
+        assert want.sum() > 20
+        assert np.array_equal(ofg.discrete_many(a, b, pa, pb, k=ALL, concave="undivided").hit, want)
