@@ -161,30 +161,42 @@ def main() -> None:
         "--isa", choices=("sse2", "avx2", "avx512"), help="instruction set of OFG; the machine's widest if not given"
     )
     parser.add_argument("--build", type=Path, default=ROOT / "build/bench_ofg")
-    parser.add_argument("--csv", type=Path, help="write the raw rows here")
+    parser.add_argument("--out", type=Path, help="write rows.csv and tables.md into this folder, too")
     a = parser.parse_args()
     program = build(a.build)
     cells = a.build / "cells.txt"
     write_cells(cells, a.pairs, a.seed)
     asked = {line.split()[0]: int(line.split()[1]) for line in open(cells) if "/" in line}
     rows = measure(program, cells, a.rounds, a.isa)
-    if a.csv:
-        rows.to_csv(a.csv, index=False)
     missing = [e for e in ENGINES if e not in set(rows["method"])]
-    print(
-        f"{a.pairs} pairs per cell (a quarter from 1,280 faces on), {a.rounds} rounds, load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores. "
+    head = (
+        f"{a.pairs} pairs per cell (a quarter from 1,280 faces on), {a.rounds} rounds, seed {a.seed}, load {os.getloadavg()[0]:.1f} "
+        f"on {os.cpu_count()} cores of {processor()}. "
         + (f"Not found, so left out: {', '.join(missing)}." if missing else "")
     )
-    pd.set_option("display.width", 250, "display.max_columns", 30, "display.max_rows", 500)
-    form = {"float_format": lambda x: f"{x:.0f}"}
-    print("\nTime per step, ns per query\n" + steps(rows).to_string(index=False, **form))
-    for method in COMPARED:
-        print(
-            f"\n{method} over each engine, time per query\n"
-            + ratios(rows, method).to_string(index=False, float_format=lambda x: f"{x:.3g}")
-        )
+    tables = {"Time per step, ns per query": steps(rows).round(0)}
+    tables |= {f"{method} over each engine, time per query": ratios(rows, method) for method in COMPARED}
     wanted = [m for m in rows["method"].unique() if "to step" not in m]
-    print("\nWrong answers, % of pairs\n" + errors(rows, asked)[wanted].T.to_string(float_format=lambda x: f"{x:.2g}"))
+    tables["Wrong answers, % of pairs"] = errors(rows, asked)[wanted].T.reset_index()
+    print(head)
+    pd.set_option("display.width", 250, "display.max_columns", 30, "display.max_rows", 500)
+    for title, table in tables.items():
+        print(f"\n{title}\n" + table.to_string(index=False, float_format=lambda x: f"{x:.3g}"))
+    if a.out:
+        write(a.out, rows, head, tables)
+
+
+def write(folder: Path, rows: pd.DataFrame, head: str, tables: dict[str, pd.DataFrame]) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    rows.to_csv(folder / "rows.csv", index=False)
+    parts = ["# Time of OFG by step, size and k, beside the native engines", "`make bench-ofg`: " + head]
+    parts += [f"## {title}\n\n{table.to_markdown(index=False, floatfmt='.3g')}" for title, table in tables.items()]
+    (folder / "tables.md").write_text("\n\n".join(parts) + "\n")
+
+
+def processor() -> str:
+    lines = Path("/proc/cpuinfo").read_text().splitlines() if Path("/proc/cpuinfo").exists() else []
+    return next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "unknown make")
 
 
 if __name__ == "__main__":
