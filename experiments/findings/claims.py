@@ -17,7 +17,7 @@ from baselines import registry
 
 from .. import metrics, sizes
 from .runs import FAILS, HOLDS, LATE, MISSES, OPEN, PART, UNMEASURED, Missing, Rate, Runs
-from .runs import are_small, listed, or_reason, rate, ratio, ratios_listed, rows, size_rates, spread, wrong_rate
+from .runs import are_small, interval, listed, or_reason, rate, ratio, ratios_listed, rows, size_rates, spread, wrong_rate
 
 
 @dataclass(frozen=True)
@@ -286,7 +286,7 @@ def all_pairs(runs: Runs):
     )
     slower, ends = (found.low > 1).tolist(), found.iloc[[0, -1]]
     number = "all pairs take " + " to ".join(
-        f"{r.ratio:.3g} [{r.low:.3g}, {r.high:.3g}] times as long ({level:g} faces, n={r.pairs})" for level, r in ends.iterrows()
+        f"{interval(r)} times as long ({level:g} faces, n={r.pairs})" for level, r in ends.iterrows()
     )
     return (HOLDS if all(slower) else PART if any(slower) else FAILS), number, text
 

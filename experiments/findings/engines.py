@@ -10,7 +10,7 @@ import pandas as pd
 from baselines import registry
 
 from .. import metrics
-from .runs import Missing, Rate, Runs, grid, listed, or_reason, rate, ratio, rows, wrong_rate
+from .runs import Missing, Rate, Runs, grid, interval, listed, or_reason, rate, ratio, rows, wrong_rate
 
 ENGINES = {  # heading -> distributions; sampled methods stand under a heading of their own
     "FCL": ("python-fcl",),
@@ -113,9 +113,9 @@ def native(runs: Runs, of: Callable) -> dict:
 
 
 def python(runs: Runs, of: Callable) -> dict:
-    times, form = runs.times("faces"), "{level:g} faces {r.ratio:.2g} [{r.low:.2g}, {r.high:.2g}]"
+    times = runs.times("faces")
     each = {m: ratio(times, m, OURS, "level") for m in of(times) if m != OURS}
-    return {m: ", ".join(form.format(level=level, r=r) for level, r in found.iterrows()) for m, found in each.items()}
+    return {m: ", ".join(f"{level:g} faces {interval(r)}" for level, r in found.iterrows()) for m, found in each.items()}
 
 
 def simulator(runs: Runs, of: Callable) -> dict:

@@ -57,7 +57,7 @@ def page(folder) -> str:
         {
             "": f"[{i}](#claim-{i})",
             "claim": f.claim.title,
-            "verdict": f.verdict,
+            "verdict": f"**{f.verdict}**",
             "number": f.number,
             "where": runs.links(f.claim.where[:1]),
         }

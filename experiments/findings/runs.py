@@ -162,8 +162,14 @@ def spread(rates: dict) -> str:
     return f"{low} {named[low]}" if low == high else f"{low} {named[low]} to {high} {named[high]}"
 
 
+def interval(r) -> str:
+    """A ratio and its interval, three digits each, never in powers of ten."""
+    value, low, high = (f"{v:.0f}" if v >= 100 else f"{v:.3g}" for v in (r.ratio, r.low, r.high))
+    return f"{value} [{low}, {high}]"
+
+
 def times_more(r) -> str:
-    return f"{r.ratio:.3g} [{r.low:.3g}, {r.high:.3g}], n={r.pairs}"
+    return f"{interval(r)}, n={r.pairs}"
 
 
 def wrong_rate(part: pd.DataFrame) -> Rate:

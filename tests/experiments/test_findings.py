@@ -314,7 +314,7 @@ def test_few_cases_say_nothing():
 
 def test_what_is_missing_is_said(tmp_path):
     text = page_of(tmp_path)
-    assert text.count(f"| {UNMEASURED} |") == len(CLAIMS)
+    assert text.count(f"| **{UNMEASURED}** |") == len(CLAIMS)
     for run in ("k", "faces", "rotation", "standard", "sizes", "native"):
         assert f"run {run} is missing" in text
 
