@@ -47,6 +47,7 @@ class Method(ABC):
     time_error: float = nan  #: documented bound on |time - true time|, as a share of the step; may be a property
     cheapest: ClassVar[Mapping[str, Any]] = {}  #: parameters of its cheapest call, which gives its floor: {"n": 1} for n substeps
     parameters: ClassVar[Mapping[str, Any]] = {}  #: name -> default; the first is the one its accuracy-speed curve runs over
+    unlimited: ClassVar[frozenset[str]] = frozenset()  #: whole-number parameters that take "inf" too
 
     def __init__(self, **parameters):
         unknown = sorted(set(parameters) - set(self.parameters))

@@ -9,6 +9,7 @@ import importlib.util
 import pkgutil
 from functools import cache
 from itertools import product
+from math import inf
 from pathlib import Path
 from types import ModuleType
 
@@ -74,7 +75,7 @@ def make(spec: str) -> list[Method]:
         if key not in cls.parameters:
             known = ", ".join(f"{k} (default {v})" for k, v in cls.parameters.items()) or "no parameter"
             raise UnknownMethod(f"Method specification '{spec}': '{name}' has no parameter '{key}'; it has {known}.")
-        choices[key] = [_typed(value, cls.parameters[key], key, spec) for value in values.split(",")]
+        choices[key] = [inf if value == "inf" and key in cls.unlimited else _typed(value, cls.parameters[key], key, spec) for value in values.split(",")]
     return [cls(**dict(zip(choices, combination))) for combination in product(*choices.values())]
 
 

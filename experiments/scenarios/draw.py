@@ -67,6 +67,7 @@ VIEWS = {
     "sliver": View(10.0, {"kind": "needle on needle"}, which=1),
     "spin_clear": View(-1.0, {}, (0.6, -0.8, 2.0), which=2),
     "spin_side": View(2.0, {"place": "in the way"}, (0.6, -0.8, 2.0)),
+    "thin_pair": View(20.0, {"place": "through", "kind": "plate"}, (2.2, -0.7, 0.5)),
     "thin_wall": View(10.0, {"place": "through"}, (2.2, -0.7, 0.5)),
     "through_hole": View(0.1, {"mover": "body"}, (2.0, -1.0, 1.2)),
     "tiny_huge": View(100.0, {"unit": "huge", "feature": "vertex-face"}, (1.0, -2.2, 0.4), zoom=40.0),

@@ -73,3 +73,10 @@ def test_methods_of_a_readers_own_file(tmp_path):
         registry.load_file(file)
     with pytest.raises(ValueError, match="does not exist"):
         registry.load_file(tmp_path / "none.py")
+
+
+def test_k_may_be_all_faces_where_the_method_says_so():
+    (method,) = registry.make("ofg k=inf")
+    assert method.label == "ofg k=inf" and registry.make(method.label)[0].parameters["k"] == float("inf")
+    with pytest.raises(registry.UnknownMethod, match="not of type int"):
+        registry.make("fcl-convex-substeps n=inf")

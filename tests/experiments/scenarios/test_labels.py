@@ -45,7 +45,7 @@ def test_both_answers_occur_and_few_cases_are_left_open(name):
     assert redrawn <= total, "more than half of what is generated is thrown away"
 
 
-@pytest.mark.parametrize("name", ["thin_wall", "spin_side", "full_turn"])
+@pytest.mark.parametrize("name", ["thin_pair", "thin_wall", "spin_side", "full_turn"])
 def test_place_is_what_its_name_says(name):
     expected = {"through": "hit", "past the rim": "clear", "in the way": "hit", "out of reach": "clear"}
     scenario = get(name)
@@ -54,6 +54,18 @@ def test_place_is_what_its_name_says(name):
             case = scenario.case(12, level, index)
             truth = label(case.query)
             assert truth.start == "hit" or truth.label == expected[case.tags["place"]], case.id
+
+
+def test_thin_pair_is_in_contact_for_its_share_of_the_step_and_at_any_time_of_it():
+    begun = []
+    for level in get("thin_pair").levels:
+        for case in (get("thin_pair").case(14, level, index) for index in range(8)):
+            truth = label(case.query)
+            if case.tags["place"] == "through":
+                assert truth.start == truth.end == "clear", case.id
+                assert 0.4 <= (case.tags["crossing"] - truth.t_lo) * level <= 0.6, case.id  # half of 1 / level before the centres meet
+                begun.append(truth.t_lo)
+    assert min(begun) < 0.15 and max(begun) > 0.85
 
 
 @pytest.mark.parametrize("name", ["hooked_ls", "linked_tori"])
