@@ -153,6 +153,12 @@ def _timed(store: Store) -> pd.DataFrame:
     return times.assign(ns=[float(np.median(r)) for r in times.rounds_ns])
 
 
+def lost(store: Store) -> list[str]:
+    """What was not timed because its process died or hung: the method, its bin and the reason."""
+    rows = store.read("timings.parquet").query("method == @LOST")
+    return [f"{r.case} ({r.question}, {r.faces} faces, {r.situation})" for r in rows.itertuples()]
+
+
 def noise(store: Store) -> float:
     """How far the 90th percentile of the probe lies above its median, worst bin: 0.05 is a quiet machine, 0.3 a disturbed one."""
     probe = store.read("timings.parquet").query("method == @PROBE").rounds_ns

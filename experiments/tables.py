@@ -171,8 +171,7 @@ def _counted(part: pd.DataFrame, value: str):
 
 def _clocked(store: Store, part: pd.DataFrame, value: str):
     times = metrics.case_costs(store).merge(part[["case", "method", "column"]], on=["case", "method"])
-    noise = metrics.noise(store)
-    state = f"Noise probe: 90th percentile {100 * noise:.0f} % above its median" + (": THIS RUN WAS DISTURBED." if noise > 0.25 else ".")
+    state = _state(store)
     if value == "ratio":
         reference = _reference(store.config)
         note = f"Net time over that of {reference}: median of the ratios case by case, 95 % bootstrap interval. Above 1: slower. {state}"
@@ -276,8 +275,8 @@ def gap_table(part: pd.DataFrame) -> Table:
 def gap_bands(relative_gap: pd.Series) -> tuple[pd.Series, list[str]]:
     """The band of each signed relative gap, and the bands from deep to far."""
     edges = [-np.inf, *(-b for b in BANDS), 0.0, *reversed(BANDS), np.inf]
-    names = [f"<-{BANDS[0]:.0e}", *(f"-{b:.0e}" for b in BANDS), *(f"+{b:.0e}" for b in reversed(BANDS)), f">{BANDS[0]:.0e}"]
-    names = [n.replace("e-0", "e-") for n in names]
+    bounds = [f"{e:.0e}".replace("e-0", "e-") if e else "0" for e in edges[1:-1]]
+    names = [f"below {bounds[0]}", *(f"{low} to {high}" for low, high in zip(bounds, bounds[1:])), f"above {bounds[-1]}"]
     return pd.cut(relative_gap, edges, labels=names).astype(object), names
 
 
@@ -308,8 +307,7 @@ def trouble_table(found: pd.DataFrame) -> Table:
 
 
 def cost_tables(store: Store) -> Iterator[Table]:
-    noise = metrics.noise(store)
-    state = f"Noise probe: 90th percentile {100 * noise:.0f} % above its median" + (": THIS RUN WAS DISTURBED." if noise > 0.25 else ".")
+    state = _state(store)
     note = (f"Microseconds per query from Python: net (gross). Net is gross less the method's floor, its own call on two tetrahedra far "
             f"apart. Columns: faces of the larger body. Medians over cases of medians over rounds; poses differ from call to call. {state}")
     for question, part in metrics.costs(store, ("question", "faces")).groupby("question", sort=False):
@@ -320,6 +318,14 @@ def cost_tables(store: Store) -> Iterator[Table]:
     for (question, situation), part in metrics.paired_ratios(store, reference).groupby(["question", "situation"], sort=False):
         yield Table(f"ratio-{question}-{situation}", f"Net time over that of {reference}, {question}, {situation}.", "Median of the ratios case by case on the cases both "
                     f"answered, 95 % bootstrap interval. Above 1: slower. {state}", part, _by_faces(part, lambda r: f"{r.ratio:.2g} [{r.low:.2g}, {r.high:.2g}]"))
+
+
+def _state(store: Store) -> str:
+    """What to know of the state that the times were taken in."""
+    noise = metrics.noise(store)
+    state = f"Noise probe: 90th percentile {100 * noise:.0f} % above its median" + (": THIS RUN WAS DISTURBED." if noise > 0.25 else ".")
+    lost = metrics.lost(store)
+    return f"{state} Without times, because the process died or hung: {'; '.join(lost)}." if lost else state
 
 
 def _by_faces(part: pd.DataFrame, cell) -> pd.DataFrame:

@@ -16,8 +16,9 @@ from __future__ import annotations
 
 import gc
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
+from pathlib import Path
 from time import perf_counter_ns
 from typing import Callable
 
@@ -42,7 +43,7 @@ START = 2.0  # seconds: a process that imports every engine
 COLUMNS = ["question", "faces", "situation", "method", "case", "build_ns", "rounds_ns"]
 PROBE = "(noise probe)"
 FLOOR = "(floor)"
-LOST = "(lost)"  # a bin whose process died: a row of this method, the reason in place of the case
+LOST = "(lost)"  # where the process died: a row of this method, in place of the case the method that it was at and the reason
 
 
 @dataclass(frozen=True)
@@ -66,8 +67,7 @@ def measure(store: Store, config: RunConfig) -> None:
     there = [store.has(*name) for name in names]
     with stage("time methods", sum(seconds), sum(s for s, t in zip(seconds, there) if t), sum(seconds)) as advance:
         for bin_, name, planned in ((b, n, s) for b, n, s, t in zip(bins, names, seconds, there) if not t):
-            # one worker: nothing else of ours runs while times are taken
-            run([_task(store, bin_, config.timing, name)], 1, max(600.0, 20.0 * planned), store.path("workers.log"), prepare=partial(load_files, config))
+            store.write(pd.DataFrame(measure_bin(store, config, bin_, max(600.0, 20.0 * planned)), columns=COLUMNS), *name)
             advance(planned)
     parts = [store.read(*name) for name in names]
     store.write(pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=COLUMNS), "timings.parquet")
@@ -118,24 +118,36 @@ def situation_of(cases: pd.DataFrame) -> pd.Series:
     return pd.Series(np.where(cases.question == "overlap", overlap, cases.label), cases.index)
 
 
-def _task(store: Store, bin_: Bin, timing: TimingChoice, name) -> Task:
-    def done(results):
-        store.write(pd.DataFrame(results[0], columns=COLUMNS), *name)
+def measure_bin(store: Store, config: RunConfig, bin_: Bin, seconds: float) -> list[tuple]:
+    """Rows of COLUMNS for one bin. Where the process dies or hangs, the bin is timed again without the method that it was at."""
+    turn, lost = store.path("parts", "timings", "turn"), []
+    while True:
+        found = []
+        turn.write_text("")
+        task = Task(_open, (config.timing, turn), [bin_], found.extend, lambda item, status, detail: f"{status}, {detail}")
+        # one worker: nothing else of ours runs while times are taken
+        run([task], 1, seconds, store.path("workers.log"), prepare=partial(load_files, config))
+        if not isinstance(found[0], str):
+            return found[0] + lost
+        label = turn.read_text()
+        lost.append((bin_.question, bin_.faces, bin_.situation, LOST, f"{label or 'all methods'}: {found[0]}", 0, []))
+        if label not in bin_.methods:
+            return lost
+        bin_ = replace(bin_, methods={name: ids for name, ids in bin_.methods.items() if name != label})
 
-    def lost(bin_, status, detail):
-        return [(bin_.question, bin_.faces, bin_.situation, LOST, detail, 0, [])]
 
-    return Task(_open, timing, [bin_], done, lost)
-
-
-def _open(timing: TimingChoice):
+def _open(argument: tuple[TimingChoice, Path]):
+    timing, turn = argument
     os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
-    return lambda bin_: time_bin(bin_, timing)
+    return lambda bin_: time_bin(bin_, timing, turn.write_text)
 
 
-def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
-    """Rows of COLUMNS for one bin."""
-    groups = [_prepare(label, bin_, answered) for label, answered in bin_.methods.items()]
+def time_bin(bin_: Bin, timing: TimingChoice, tell: Callable[[str], object] = lambda label: None) -> list[tuple]:
+    """Rows of COLUMNS for one bin. tell: called with the label of each method before its turn."""
+    groups = []
+    for label, answered in bin_.methods.items():
+        tell(label)
+        groups.append(_prepare(label, bin_, answered))
     groups.append([Call(PROBE, "", 0, _noise_probe())])
     times = {call: [] for group in groups for call in group}
     order = np.random.default_rng(0)
@@ -147,6 +159,7 @@ def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
             group, kept = groups[i], r - timing.warmup
             if kept >= 0 and not _takes_part(kept, rounds_within(once[i], timing), timing.rounds):
                 continue
+            tell(group[0].method)
             begin = perf_counter_ns()
             group[-1].ask()  # not timed: it meets caches full of another engine
             for call in group:
