@@ -4,7 +4,6 @@ import os
 import re
 import subprocess
 import sys
-import tomllib
 from pathlib import Path
 
 import pytest
@@ -35,23 +34,24 @@ def test_the_page_from_its_top_to_its_end(tmp_path):
     assert done["compare3"].returncode == 0 and "Accuracy is identical" in done["compare3"].stdout, done["compare3"].stderr
 
 
-def package(folder):
-    """The page's package as pip lays it down: the module, and its metadata with the entry points of the page's pyproject.toml."""
-    project = tomllib.loads(FILES["pyproject.toml"])["project"]
-    (folder / "my_collisions").mkdir()
+def install(folder):
+    """The page's package, built and installed by pip into folder/site. Without a network: so the builder is the one that is here already."""
+    source = folder / "source"
+    (source / "my_collisions").mkdir(parents=True)
+    text = FILES["pyproject.toml"].replace('requires = ["setuptools"]', 'requires = ["scikit-build-core"]')
+    text = text.replace("setuptools.build_meta", "scikit_build_core.build").split("[tool.setuptools]")
+    entries = text[1][text[1].index("[project.entry-points"):]
+    (source / "pyproject.toml").write_text(text[0] + '[tool.scikit-build]\nwheel.cmake = false\nwheel.packages = ["my_collisions"]\n\n' + entries)
     for name in ("falling_die.py", "spheres.py", "__init__.py"):
-        (folder / "my_collisions" / name).write_text(FILES[name])
-    (folder / "my_collisions" / "dice.toml").write_text("".join(line for line in FILES["dice.toml"].splitlines(True) if "_files" not in line))
-    info = folder / "my_collisions-1.0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {project['version']}\n")
-    entries = project["entry-points"]
-    (info / "entry_points.txt").write_text("".join(f"[{group}]\n" + "".join(f"{k} = {v}\n" for k, v in e.items()) for group, e in entries.items()))
+        (source / "my_collisions" / name).write_text(FILES[name])
+    (source / "my_collisions" / "dice.toml").write_text("".join(line for line in FILES["dice.toml"].splitlines(True) if "_files" not in line))
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-index", "--no-build-isolation", "--no-deps"]
+    done = subprocess.run([*pip, "--target", str(folder / "site"), str(source)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
 
 
 def test_an_installed_package_is_known_to_the_command_and_to_its_workers(tmp_path):
-    (tmp_path / "site").mkdir()
-    package(tmp_path / "site")
+    install(tmp_path)
     listed = bench(tmp_path, "list", PYTHONPATH=str(tmp_path / "site"))
     assert all(word in listed.stdout for word in ("falling_die", "spheres", "Falling dice")), listed.stderr
     done = bench(tmp_path, "run", "dice", "--out", "run", PYTHONPATH=str(tmp_path / "site"))

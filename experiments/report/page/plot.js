@@ -58,6 +58,7 @@ async function drawPlot() {
         name,
         m,
         label,
+        short: label.split(" ").slice(1).join(" "),
         count,
         total,
         rate: count / total,
@@ -82,7 +83,8 @@ async function drawPlot() {
     grid = colour("var(--line)"),
     seen = {},
     traces = [],
-    all = [...families.values()].flat();
+    all = [...families.values()].flat(),
+    placed = placeLabels(all, box.clientWidth);
   for (const points of families.values()) {
     const name = points[0].name,
       engine = D.methods[points[0].m].engine,
@@ -107,9 +109,9 @@ async function drawPlot() {
         color: shade,
         line: { color: shade, width: 1.5 },
       },
-      text: points.map((p) => p.label.split(" ").slice(1).join(" ")),
+      text: points.map((p) => (placed.has(p) ? p.short : "")),
       cliponaxis: false,
-      textposition: "top right",
+      textposition: points.map((p) => placed.get(p) || "top right"),
       textfont: { size: 10, color: ink },
       error_y: {
         type: "data",
@@ -185,7 +187,31 @@ async function drawPlot() {
     (F.lane === "native"
       ? "Native times are of the libraries in one C++ loop, on pairs of their own of these sizes (experiments/native.py); rates are of this run's cases. "
       : "") +
-    `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: answers only part of them, and is not on the Pareto front. At ≤ 0.05: no dearer than the method's own floor. Whiskers: 95 % Wilson intervals. A click on a point shows the cases behind it; the leaderboard above holds the same figures.`;
+    `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: answers only part of them, and is not on the Pareto front. At ≤ 0.05: no dearer than the method's own floor. Whiskers: 95 % Wilson intervals. Labels that would cover others are left out. A click on a point shows the cases behind it; the leaderboard above holds the same figures.`;
+}
+
+// A corner of its point for each label where it covers no other label and no point, as nearly as is known before drawing; a label without
+// one is left out, and shown like every other when the pointer is on its point.
+function placeLabels(points, width) {
+  const xs = points.map((p) => Math.log10(p.us)),
+    low = Math.min(...xs),
+    scale = (0.7 * width) / Math.max(Math.max(...xs) - low, 0.5);
+  const spot = (p) => [(Math.log10(p.us) - low) * scale, (-squash(p.rate) * 490) / squash(1.3)];
+  const taken = points.map((p) => [p, spot(p).flatMap((v) => [v - 4, v + 4])]),
+    placed = new Map();
+  for (const p of points.filter((p) => p.short)) {
+    const [x, y] = spot(p),
+      long = 6 * p.short.length;
+    for (const corner of ["top right", "top left", "bottom right", "bottom left"]) {
+      const [x0, y0] = [corner.endsWith("right") ? x + 5 : x - 5 - long, corner.startsWith("top") ? y - 15 : y + 4];
+      const [x1, y1] = [x0 + long, y0 + 11];
+      if (taken.some(([q, [a0, a1, b0, b1]]) => q !== p && x0 < a1 && a0 < x1 && y0 < b1 && b0 < y1)) continue;
+      placed.set(p, corner);
+      taken.push([null, [x0, x1, y0, y1]]);
+      break;
+    }
+  }
+  return placed;
 }
 
 const here = () => ({ question: F.question, sizes: F.sizes, situation: F.situation, band: F.band, scenario: F.scenario });

@@ -4,8 +4,6 @@ const RATES = new Set([
   "judged hit",
   "judged clear",
   "can tunnel",
-  "asked",
-  "answered",
   "miss",
   "false alarm",
   "tunnelled",
@@ -50,7 +48,7 @@ function drawTables() {
                         [count, total] = value.split("/").map(Number);
                       const content = [
                         to ? link(to, value) : value,
-                        to && total > 0 && RATES.has(to.kind) ? el("small", {}, interval(wilson(count, total))) : null,
+                        to && total > 0 && RATES.has(to.kind) && !t.columns[k + 1]?.startsWith("95 %") ? el("small", {}, interval(wilson(count, total))) : null,
                       ];
                       return k
                         ? el("td", { class: numeric[k] ? "" : "left" }, content)
