@@ -8,7 +8,8 @@ out slower than k = 8 behind it). Taking turns call by call was left out, becaus
 full of another engine. The floor of a method is its own cheapest call (of n substeps: one) on two tetrahedra far apart, timed
 between its cases: what the binding and an early way out cost. A net time of n substeps therefore still holds the binding's
 cost of n - 1 calls.
-A method that takes longer than `seconds` for its rounds of a bin takes part in fewer of them, spread evenly, but in no fewer than 3.
+A method that takes longer than `seconds` for its rounds of a bin takes part in fewer of them, spread evenly, but in no fewer than 3;
+one that takes longer for a single round is warmed up once.
 Only cases that a method answered (status ok) are timed; building (`prepare`) is timed once per case.
 """
 
@@ -103,7 +104,7 @@ def expected(store: Store, bins: list[Bin], timing: TimingChoice) -> list[float]
 
 def rounds_within(once: float, timing: TimingChoice, warmup: int = 0) -> int:
     """Rounds for a method whose cases of a bin take `once` seconds: all, or as many as fit, but never fewer than LEAST_ROUNDS."""
-    return min(timing.rounds, max(LEAST_ROUNDS, int(timing.seconds / max(once, 1e-9)))) + warmup
+    return min(timing.rounds, max(LEAST_ROUNDS, int(timing.seconds / max(once, 1e-9)))) + (warmup if once <= timing.seconds else min(1, warmup))
 
 
 def size_of(faces: pd.Series) -> pd.Series:
@@ -157,11 +158,13 @@ def time_bin(bin_: Bin, timing: TimingChoice, tell: Callable[[str], object] = la
     for r in range(timing.warmup + timing.rounds):
         for i in order.permutation(len(groups)):
             group, kept = groups[i], r - timing.warmup
-            if kept >= 0 and not _takes_part(kept, rounds_within(once[i], timing), timing.rounds):
+            slow = once[i] > timing.seconds  # to which the caches do not matter: one warm-up is enough
+            if slow and kept < 0 or kept >= 0 and not _takes_part(kept, rounds_within(once[i], timing), timing.rounds):
                 continue
             tell(group[0].method)
             begin = perf_counter_ns()
-            group[-1].ask()  # not timed: it meets caches full of another engine
+            if not slow:
+                group[-1].ask()  # not timed: it meets caches full of another engine
             for call in group:
                 start = perf_counter_ns()
                 call.ask()
