@@ -166,6 +166,7 @@ static void portal(const SupportView& a, const SupportView& b, const PosedPairs&
       const Point e = either(base, minus<float>(v1, corner), minus<float>(v2, corner)),
                   f = either(base, minus<float>(v2, corner), minus<float>(v3, corner));
       d = turned<float>(e, f);
+      open &= times<float>(d, d) > zero;  // a portal without area leads nowhere
       const Mask inside = open & ~base & (times<float>(d, v1) >= zero);
       meet |= inside, open &= ~inside;
     }
