@@ -16,8 +16,8 @@ from . import metrics
 from .store import Store
 from .timing import SIZES, size_of
 
-# Okabe and Ito's palette, told apart by every common colour vision; markers repeat the distinction in grey print.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999933")
+# Okabe and Ito's palette and three of Paul Tol's, one for each engine there is, told apart by every common colour vision; markers repeat the distinction in grey print.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999933", "#882255", "#DDCC77")
 MARKERS = "osD^vP*Xh<>p"
 GRAIN = 50.0  # ns: net times below what the clock can tell are drawn there
 LEAST = 20  # certified cases without which a panel says nothing
@@ -87,7 +87,8 @@ def _panel(axis, part: pd.DataFrame, styles) -> None:
         axis.plot(group.us[~whole], 100 * group.rate[~whole], color=colour, marker=marker, ms=5, ls="", mfc="white", zorder=3)
         for row in group.itertuples():
             if len(group) > 1 and row.Index in (group.index[0], group.index[-1]):
-                axis.annotate(row.method.split()[1], (row.us, 100 * row.rate), textcoords="offset points", xytext=(3, 3), fontsize=5, color=colour)
+                place = {"xytext": (3, 3)} if row.rate else {"xytext": (0, 6), "rotation": 90, "ha": "center", "va": "bottom"}  # many share the line of 0
+                axis.annotate(row.method.split()[1], (row.us, 100 * row.rate), textcoords="offset points", fontsize=6, color=colour, **place)
     axis.set_xscale("log")
     axis.margins(x=0.08)
     span = np.log10(part.us.max() / part.us.min())
@@ -114,6 +115,7 @@ def _styles(methods) -> dict[str, tuple[str, str]]:
     for name in dict.fromkeys(map(curve, methods)):
         engine = known[name.split()[0]].engine if name.split()[0] in known else name
         colour, count = seen.get(engine, (COLOURS[len(seen) % len(COLOURS)], 0))
-        styles[name] = (colour, MARKERS[count % len(MARKERS)])
+        more = count // len(MARKERS)  # an engine with more curves than markers goes on in colours that other engines leave
+        styles[name] = (COLOURS[-more] if more else colour, MARKERS[count % len(MARKERS)])
         seen[engine] = (colour, count + 1)
     return styles
