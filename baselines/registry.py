@@ -42,11 +42,7 @@ def load_file(path) -> dict[str, type[Method]]:
     ValueError if the file does not exist or declares none.
     """
     path = Path(path).resolve()
-    if not path.is_file():
-        raise ValueError(f"Method file {path.name} does not exist; give the path of a Python file that defines METHODS = [Class, ...].")
-    spec = importlib.util.spec_from_file_location(f"baselines_file_{path.stem}", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    module = run_file(path, f"Method file {path.name}", f"baselines_file_{path.stem}", "METHODS = [Class, ...]")
     found: dict[str, type[Method]] = {}
     _collect(module, found)
     if not found:
@@ -58,6 +54,18 @@ def load_file(path) -> dict[str, type[Method]]:
             raise ValueError(f"Method file {path.name}: the name '{name}' is taken by {known[name].__module__}; choose another.")
     known.update(found)
     return found
+
+
+def run_file(path: Path, what: str, name: str, defines: str) -> ModuleType:
+    """The module called `name` that a reader's own Python file makes. ValueError, which begins with `what`, if it is not there or no Python file."""
+    if not path.is_file():
+        raise ValueError(f"{what} does not exist; give the path of a Python file that defines {defines}.")
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None:
+        raise ValueError(f"{what} is not a Python file; its name must end in .py.")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def make(spec: str) -> list[Method]:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import difflib
 import importlib
-import importlib.util
 import pkgutil
 from functools import cache
 from importlib.metadata import entry_points
 from pathlib import Path
 
+from baselines.registry import run_file
 from experiments.scenario import Scenario
 
 GROUP = "ofg.scenarios"  # entry points of installed packages that bring scenarios
@@ -64,13 +64,7 @@ def load_file(path) -> list[Scenario]:
     ValueError where the file is missing, defines neither, or takes the name of a family of this folder.
     """
     path = Path(path)
-    if not path.is_file():
-        raise ValueError(f"Scenario file {path} does not exist; give the path of a Python file that defines SCENARIO.")
-    spec = importlib.util.spec_from_file_location(f"scenario_file_{path.stem}", path)
-    if spec is None:
-        raise ValueError(f"Scenario file {path} is not a Python file; its name must end in .py.")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    module = run_file(path, f"Scenario file {path}", f"scenario_file_{path.stem}", "SCENARIO")
     found = list(getattr(module, "SCENARIOS", [])) or [s for s in [getattr(module, "SCENARIO", None)] if s is not None]
     if not found or not all(isinstance(s, Scenario) for s in found):
         raise ValueError(f"Scenario file {path} defines no scenario; it must set SCENARIO = Scenario(...), or SCENARIOS to a list "

@@ -80,3 +80,10 @@ def test_k_may_be_all_faces_where_the_method_says_so():
     assert method.label == "ofg k=inf" and registry.make(method.label)[0].parameters["k"] == float("inf")
     with pytest.raises(registry.UnknownMethod, match="not of type int"):
         registry.make("fcl-convex-substeps n=inf")
+
+
+def test_a_method_file_that_is_no_python_file_is_said_to_be_none(tmp_path):
+    path = tmp_path / "mine.txt"
+    path.write_text("METHODS = []")
+    with pytest.raises(ValueError, match="must end in .py"):
+        registry.load_file(path)
