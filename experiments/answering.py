@@ -9,7 +9,7 @@ from time import perf_counter
 import pandas as pd
 
 from baselines import registry
-from baselines.contract import MissingEngine, Unsupported
+from baselines.contract import MissingEngine, Unsupported, Verdict
 
 from .case import Case
 from .config import RunConfig, load_files
@@ -84,6 +84,8 @@ def answer(method, case: Case, config: RunConfig) -> dict:
         return _row(case, method.label, "unsupported", detail=str(missing))
     except Exception as error:
         return _row(case, method.label, "error", detail=f"{type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}"[:200])
+    if not isinstance(verdict, Verdict):
+        return _row(case, method.label, "error", detail=f"returned {type(verdict).__name__}, not a Verdict (of baselines.contract)")
     time = float(verdict.time)
     if not math.isnan(time) and not 0 <= time <= 1:
         return _row(case, method.label, "error", detail=f"time of impact {time!r} is outside the step [0, 1]")

@@ -8,6 +8,7 @@ from typing import Annotated, Optional
 
 import typer
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table as Grid
 
 from baselines import registry
@@ -350,7 +351,7 @@ def main() -> None:
     try:
         app()
     except (ValueError, StoreError, BodyError, ImportError) as error:
-        Console(stderr=True).print(f"[bold red]Error.[/] {error}", highlight=False, soft_wrap=False)
+        Console(stderr=True).print(f"[bold red]Error.[/] {escape(str(error))}", highlight=False, soft_wrap=False)
         sys.exit(2)
     except KeyboardInterrupt:
         Console(stderr=True).print("\nInterrupted. What is finished is kept; say the same command again to go on.")

@@ -67,3 +67,21 @@ def test_a_broken_entry_point_is_named(tmp_path, group, line):
     done = bench(tmp_path, "list", PYTHONPATH=str(tmp_path))
     said = " ".join(done.stderr.split())
     assert done.returncode == 2 and f"entry point 'broken' of the group {group}" in said and "Traceback" not in said
+
+
+def test_a_method_that_returns_no_verdict_costs_its_own_rows_and_is_told_what_to_return(tmp_path):
+    (tmp_path / "falling_die.py").write_text(FILES["falling_die.py"])
+    (tmp_path / "spheres.py").write_text(FILES["spheres.py"].replace("lambda: first(", "lambda: True or first("))
+    (tmp_path / "dice.toml").write_text(FILES["dice.toml"])
+    done = bench(tmp_path, "run dice.toml --out dice")
+    assert done.returncode == 0 and "Traceback" not in done.stderr, done.stderr
+    assert "returned bool, not a Verdict (of baselines.contract)" in (tmp_path / "dice/tables/unanswered.csv").read_text()
+
+
+def test_brackets_in_an_error_are_printed(tmp_path):
+    """They were taken for markup: 'vertex 0 is , which is not finite'."""
+    (tmp_path / "falling_die.py").write_text(FILES["falling_die.py"].replace("box(1, 1, 1), box", "ofg.Body.convex(np.full((5, 3), np.nan)), box").replace("import numpy as np", "import numpy as np\nimport ofg"))
+    (tmp_path / "spheres.py").write_text(FILES["spheres.py"])
+    (tmp_path / "dice.toml").write_text(FILES["dice.toml"])
+    done = bench(tmp_path, "run dice.toml --out dice")
+    assert done.returncode == 2 and "vertex 0 is [nan nan nan], which is not finite" in " ".join(done.stderr.split())
