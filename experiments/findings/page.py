@@ -24,6 +24,7 @@ def about(runs: Runs) -> list[dict]:
         except StoreError:
             question = {
                 "sizes": "Misses and operations by size, depth and k (`python -m experiments.sizes`).",
+                "bench-ofg": "Time of OFG by step, size and k, beside the native engines (`make bench-ofg`).",
                 "native": "Both lanes side by side: the libraries asked from C++ and from Python.",
             }.get(run, "")
         size, noise = "-", "-"

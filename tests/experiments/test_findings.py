@@ -230,6 +230,23 @@ def test_faster_than_the_engines():
     assert said("Faster", Fake(rows=native(500, 1))) == FAILS
 
 
+def bench(own: float, small: float) -> pd.DataFrame:
+    return pd.DataFrame(
+        [
+            {"cell": f"{f}-hull/gap", "method": m, "round": r, "nanoseconds": ns}
+            for f, s in ((12, small), (320, 1.0))
+            for r in range(3)
+            for m, ns in (("OFG double k=8 screened in batch", own), ("OFG double k=8", 50.0), ("FCL libccd", 100 * s))
+        ]
+    )
+
+
+def test_screened_in_batch():
+    assert said("At small gaps", Fake(rows=bench(15, 1))) == HOLDS
+    assert said("At small gaps", Fake(rows=bench(15, 0.2))) == PART
+    assert said("At small gaps", Fake(rows=bench(60, 1))) == FAILS
+
+
 def hulls(missed, pairs=lambda question, k: k * k, distances=2.0) -> pd.DataFrame:
     """Rows of the claims run; missed(faces, depth): how many of N."""
     made = []
@@ -282,6 +299,7 @@ def test_every_claim_is_turned_by_some_test():
         "Halving",
         "Cheaper",
         "Faster",
+        "At small gaps",
         "k of",
         "Small",
         "Best",
