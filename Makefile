@@ -11,7 +11,7 @@ help:
 	@echo "make test         set up, build, run every test"
 	@echo "make engines      install the further engines too: coal, rapier, parry, ipctk, drake"
 	@echo "make native       build the native lane (the libraries asked from C++) with what is found here, and compare both lanes"
-	@echo "make reproduce    run every experiment and the standard preset into results/ (under an hour)"
+	@echo "make reproduce    run every experiment and the standard preset into results/, and write the findings (under an hour)"
 	@echo "make bench-ofg    time OFG step by step, by size and k, beside the native engines"
 	@echo "make bench-truth  certified labels a second on the standard mix"
 	@echo "make crosscheck   ask CGAL's exact kernel and dense sampling about the labels"
