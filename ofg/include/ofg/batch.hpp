@@ -5,7 +5,24 @@
 namespace ofg {
 namespace detail {
 
-// Screens up to most_posed pairs at once: by portals, as many as a register has lanes (simd/portal_body.hpp).
+// The first n pairs, and as many more that nobody asks as fill a register.
+inline int fill_up(PosedPairs& pairs, int n) {
+  const int padded = (n + lanes<float> - 1) / lanes<float> * lanes<float>;
+  for (int i = n; i < padded; ++i) {
+    for (auto& row : pairs.r) row[i] = 0;
+    for (auto& row : pairs.between) row[i] = 0;
+    pairs.size_b[i] = 0, pairs.gap[i] = -1;
+  }
+  return padded;
+}
+
+inline void move_pair(PosedPairs& pairs, int from, int to) {
+  for (auto& row : pairs.r) row[to] = row[from];
+  for (auto& row : pairs.between) row[to] = row[from];
+  pairs.size_b[to] = pairs.size_b[from], pairs.gap[to] = pairs.gap[from];
+}
+
+// Screens up to most_posed pairs at once: a few axes for all, then portals for the rest, closed up.
 template <class T>
 void screen(const Mesh<T>& a, const Mesh<T>& b, const Pose* pa, const Pose* pb, int n, Screened* out) {
   static_assert(sizeof(Pose) == 7 * sizeof(double) && sizeof(Screened) == 1);
@@ -18,9 +35,19 @@ void screen(const Mesh<T>& a, const Mesh<T>& b, const Pose* pa, const Pose* pb, 
                             4 * rounding<T>,
                             double(a.extent) + double(b.extent)};
   PosedPairs pairs;
-  const int padded = (n + lanes<float> - 1) / lanes<float> * lanes<float>;
-  kernels<T>.pose_pairs(bodies, reinterpret_cast<const double*>(pa), reinterpret_cast<const double*>(pb), n, padded, pairs);
-  kernels<T>.portal(a.supports.view(), b.supports.view(), pairs, padded, reinterpret_cast<unsigned char*>(out));
+  const SupportView map_a = a.supports.view(), map_b = b.supports.view();
+  unsigned char verdict[most_posed];
+  int rest[most_posed], left = 0;
+  kernels<T>.pose_pairs(bodies, reinterpret_cast<const double*>(pa), reinterpret_cast<const double*>(pb), n, pairs);
+  if (first_axes(a, b) > 0) kernels<T>.reflect(map_a, map_b, pairs, fill_up(pairs, n), first_axes(a, b), verdict);
+  for (int i = 0; i < n; ++i) {
+    out[i] = first_axes(a, b) > 0 ? Screened(verdict[i]) : Screened::unknown;
+    if (out[i] == Screened::apart) continue;
+    move_pair(pairs, i, left);
+    rest[left++] = i;
+  }
+  kernels<T>.portal(map_a, map_b, pairs, fill_up(pairs, left), verdict);
+  for (int i = 0; i < left; ++i) out[rest[i]] = Screened(verdict[i]);
 }
 
 // The one pair of meshes that is asked of two bodies whatever their pose; none of bodies in several pieces.

@@ -14,7 +14,14 @@ namespace detail {
 // in its last bits and by 10 in its axis, each for its body's share of the unit: together under 64, taken twice.
 constexpr double screen_rounding = 128.0 / (1 << 24);
 
-// One pair by GJK: a portal for one pair would wait for itself most of the time. slide: of A in B's frame, without turning; slack:
+// How many axes are worth a try before an exact search. Of pairs at small gaps three settle 80 to 100 % from 320 faces on, and 20 %
+// of cubes, whose lists are all their vertices.
+template <class T>
+int first_axes(const Mesh<T>& a, const Mesh<T>& b) {
+  return a.vertices.size() > list_unit && b.vertices.size() > list_unit ? 3 : 0;
+}
+
+// One pair, by a few axes and then GJK: a portal for one pair would wait for itself most of the time. slide: of A in B's frame, without turning; slack:
 // a length that must lie between the bodies besides.
 template <class T>
 bool screened_apart(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& to_b, const Vec3<double>& slide, double slack) {
@@ -37,9 +44,16 @@ bool screened_apart(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>&
     const Vec3<float> w = pose(extreme(map_a, back * v)) - extreme(map_b, -v) * size_b;
     return dot(v, end) < 0 ? w + end : w;
   };
-  Vec3<float> axis(way + far * 0.5);
-  const double gap = screen_rounding * (1 + largest(way) + largest(far)) + slack * unit;
-  return separated(axis, float(gap), least);
+  const float gap = float(screen_rounding * (1 + largest(way) + largest(far)) + slack * unit);
+  const Vec3<float> centres(way + far * 0.5);
+  Vec3<float> axis = centres;
+  for (int i = first_axes(a, b); i > 0; --i) {
+    const Vec3<float> w = least(axis);
+    const float along = dot(w, axis);
+    if (along > gap * length(axis)) return true;
+    axis = axis - w * (2 * along / dot(w, w));
+  }
+  return separated(axis = centres, gap, least);
 }
 
 }  // namespace detail

@@ -25,7 +25,7 @@ class SupportMap {
     // A dozen points a cell where they are spread evenly: a list is read sixteen at a time.
     side = 1;
     if (n > list_unit)
-      while (side < 32 && side < 0.25 * std::sqrt(double(n))) side *= 2;
+      while (side < 32 && side < 0.5 * std::sqrt(double(n))) side *= 2;
     std::vector<std::vector<int>> lists(std::size_t(6 * side * side), n > list_unit ? std::vector<int>() : everyone);
     if (n > list_unit)
       for (int face = 0; face < 6; ++face) divide(all, everyone, face, 0, 0, 1, lists);

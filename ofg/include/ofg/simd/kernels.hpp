@@ -80,7 +80,7 @@ struct PosedPairs {
   float r[9][most_posed];        // the rotation of A, times its radius; by rows
   float between[3][most_posed];  // the centre of A
   float size_b[most_posed];      // radius of B
-  float gap[most_posed];         // that makes them apart; NaN: nobody asks
+  float gap[most_posed];         // that makes them apart; below zero: nobody asks
 };
 
 // What PosedPairs need to know of two bodies, and the gap that counts: rounding (1 + way) + slack (extents + way), the way in units
@@ -101,8 +101,9 @@ struct Kernels {
   void (*boxes_apart)(const BoxView<T>&, int n, const T* box, T slack, unsigned char* apart);
   void (*transform)(T* x, T* y, T* z, int n, const T* rows, const T* shift);
   void (*extreme)(const SupportView&, const float* axis, float* point);
+  void (*reflect)(const SupportView& a, const SupportView& b, const PosedPairs&, int n, int axes, unsigned char* verdict);
   void (*portal)(const SupportView& a, const SupportView& b, const PosedPairs&, int n, unsigned char* verdict);
-  void (*pose_pairs)(const PairOfBodies&, const double* poses_a, const double* poses_b, int n, int padded, PosedPairs&);
+  void (*pose_pairs)(const PairOfBodies&, const double* poses_a, const double* poses_b, int n, PosedPairs&);
 };
 
 }  // namespace ofg

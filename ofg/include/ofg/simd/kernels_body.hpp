@@ -408,7 +408,7 @@ static void transform(T* x, T* y, T* z, int n, const T* m, const T* p) {
 template <class T>
 Kernels<T> kernels() {
   return {nearest<T>,       support<T>,     farthest<T>,  planes_apart<T>, edges_apart<T>, planes_gap<T>,
-          segments_miss<T>, boxes_apart<T>, transform<T>, extreme,         portal,         pose_pairs};
+          segments_miss<T>, boxes_apart<T>, transform<T>, extreme,         reflect,        portal,       pose_pairs};
 }
 
 #undef OFG_INLINE

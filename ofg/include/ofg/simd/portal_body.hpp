@@ -74,22 +74,38 @@ static void extreme(const SupportView& m, const float* axis, float* point) {
   least_of_cell(m, cell, axis, point);
 }
 
-// The points of a set least along one axis a lane, where `open`.
-OFG_INLINE Point least(const SupportView& m, const Point& axis, Mask open) {
+// The lanes that are open, as a list: a branch on each lane would be mispredicted whenever one closes.
+struct OpenLanes {
+  int lane[OFG_BYTES / 4], count;
+};
+OFG_INLINE OpenLanes lanes_of(Mask open) {
+  constexpr int w = OFG_BYTES / 4;
+  OpenLanes found;
+  int wanted[w];
+  __builtin_memcpy(wanted, &open, sizeof open);
+  found.count = 0;
+  for (int l = 0; l < w; ++l) {
+    found.lane[found.count] = l;
+    found.count -= wanted[l];  // a mask is -1 or 0
+  }
+  return found;
+}
+
+// The points of a set least along one axis a lane, of the open ones.
+OFG_INLINE Point least(const SupportView& m, const Point& axis, const OpenLanes& open) {
   constexpr int w = OFG_BYTES / 4;
   const Mask cells = cells_of({-axis.x, -axis.y, -axis.z}, m.side);
   float a[3][w], p[3][w] = {};
-  int cell[w], wanted[w];
+  int cell[w];
   __builtin_memcpy(a[0], &axis.x, sizeof axis.x), __builtin_memcpy(a[1], &axis.y, sizeof axis.y),
-      __builtin_memcpy(a[2], &axis.z, sizeof axis.z);
-  __builtin_memcpy(cell, &cells, sizeof cells), __builtin_memcpy(wanted, &open, sizeof open);
-  for (int l = 0; l < w; ++l)
-    if (wanted[l]) {
-      const float one[3] = {a[0][l], a[1][l], a[2][l]};
-      float q[3];
-      least_of_cell(m, cell[l], one, q);
-      p[0][l] = q[0], p[1][l] = q[1], p[2][l] = q[2];
-    }
+      __builtin_memcpy(a[2], &axis.z, sizeof axis.z), __builtin_memcpy(cell, &cells, sizeof cells);
+  for (int i = 0; i < open.count; ++i) {
+    const int l = open.lane[i];
+    const float one[3] = {a[0][l], a[1][l], a[2][l]};
+    float q[3];
+    least_of_cell(m, cell[l], one, q);
+    p[0][l] = q[0], p[1][l] = q[1], p[2][l] = q[2];
+  }
   return {load(p[0]), load(p[1]), load(p[2])};
 }
 
@@ -104,7 +120,8 @@ struct Pairs {
 OFG_INLINE Point support_of(const SupportView& a, const SupportView& b, const Pairs& q, const Point& d, Mask open) {
   const Point back{-(q.r[0] * d.x + q.r[3] * d.y + q.r[6] * d.z), -(q.r[1] * d.x + q.r[4] * d.y + q.r[7] * d.z),
                    -(q.r[2] * d.x + q.r[5] * d.y + q.r[8] * d.z)};
-  const Point s = least(a, back, open), t = least(b, d, open);
+  const OpenLanes lanes = lanes_of(open);
+  const Point s = least(a, back, lanes), t = least(b, d, lanes);
   return {(q.r[0] * s.x + q.r[1] * s.y + q.r[2] * s.z) + q.between.x - q.size_b * t.x,
           (q.r[3] * s.x + q.r[4] * s.y + q.r[5] * s.z) + q.between.y - q.size_b * t.y,
           (q.r[6] * s.x + q.r[7] * s.y + q.r[8] * s.z) + q.between.z - q.size_b * t.z};
@@ -116,16 +133,41 @@ OFG_INLINE Mask beyond(const Point& w, const Point& d, Wide gap) {
   return (at < Wide{}) & (at * at > gap * gap * times<float>(d, d));
 }
 
-// For each of n pairs, n a multiple of the lanes of float: 1, their hulls are apart by more than the gap; 2, they seem to meet;
-// 0, no verdict.
+OFG_INLINE Pairs pairs_at(const PosedPairs& pairs, int from) {
+  Pairs q;
+  for (int i = 0; i < 9; ++i) q.r[i] = load(pairs.r[i] + from);
+  q.between = {load(pairs.between[0] + from), load(pairs.between[1] + from), load(pairs.between[2] + from)};
+  q.size_b = load(pairs.size_b + from), q.gap = load(pairs.gap + from);
+  return q;
+}
+
+// Of n pairs, n a multiple of the lanes of float: 1, their hulls are apart by more than the gap; 0, no verdict. A few axes are
+// tried: that of the centres, then each reflected at the point of A - B that stands in its way (Chung and Wang 1996).
+static void reflect(const SupportView& a, const SupportView& b, const PosedPairs& pairs, int n, int axes, unsigned char* verdict) {
+  constexpr int w = OFG_BYTES / 4;
+  for (int from = 0; from < n; from += w) {
+    const Pairs q = pairs_at(pairs, from);
+    Mask open = q.gap >= Wide{}, apart = {};
+    Point d{-q.between.x, -q.between.y, -q.between.z};
+    for (int i = 0; i < axes && any(open); ++i) {
+      const Point s = support_of(a, b, q, d, open);
+      const Mask out = open & beyond(s, d, q.gap);
+      apart |= out, open &= ~out;
+      const Wide twice = 2.0f * times<float>(s, d) / times<float>(s, s);
+      d = {d.x - twice * s.x, d.y - twice * s.y, d.z - twice * s.z};
+    }
+    int yes[w];
+    __builtin_memcpy(yes, &apart, sizeof apart);
+    for (int l = 0; l < w; ++l) verdict[from + l] = yes[l] ? 1 : 0;
+  }
+}
+
+// As reflect, until it is settled; and 2: their hulls seem to meet.
 static void portal(const SupportView& a, const SupportView& b, const PosedPairs& pairs, int n, unsigned char* verdict) {
   constexpr int w = OFG_BYTES / 4, most_steps = 24;
   const Wide zero = {};
   for (int from = 0; from < n; from += w) {
-    Pairs q;
-    for (int i = 0; i < 9; ++i) q.r[i] = load(pairs.r[i] + from);
-    q.between = {load(pairs.between[0] + from), load(pairs.between[1] + from), load(pairs.between[2] + from)};
-    q.size_b = load(pairs.size_b + from), q.gap = load(pairs.gap + from);
+    const Pairs q = pairs_at(pairs, from);
     const Point& v0 = q.between;
     Mask open = q.gap >= zero, apart, meet = {};
     Point d{-v0.x, -v0.y, -v0.z};
@@ -191,8 +233,7 @@ OFG_INLINE void rotation_of(const Lane<double>::V* q, Lane<double>::V* m) {
 }
 
 // PosedPairs of poses in rows of seven, quaternion and position; with one division a rotation, which is near enough.
-// n of them, padded to a multiple of the lanes of float.
-static void pose_pairs(const PairOfBodies& bodies, const double* poses_a, const double* poses_b, int n, int padded,
+static void pose_pairs(const PairOfBodies& bodies, const double* poses_a, const double* poses_b, int n,
                        PosedPairs& out) {
   constexpr int w = OFG_BYTES / 8;
   typedef Lane<double>::V V;
@@ -200,8 +241,9 @@ static void pose_pairs(const PairOfBodies& bodies, const double* poses_a, const 
   double rows[14][most_posed];
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < 7; ++j) rows[j][i] = poses_a[7 * i + j], rows[7 + j][i] = poses_b[7 * i + j];
+  const int padded = (n + w - 1) / w * w;
   for (int j = 0; j < 14; ++j)
-    for (int i = n; i < padded; ++i) rows[j][i] = 0;  // makes their gaps NaN, and nobody asks
+    for (int i = n; i < padded; ++i) rows[j][i] = 0;
   const double unit = 1 / (bodies.radius_a + bodies.radius_b), own = bodies.radius_a * unit;
   for (int i = 0; i < padded; i += w) {
     V p[4], q[4], r[4];
