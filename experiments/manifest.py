@@ -42,11 +42,11 @@ def build() -> dict:
 
 
 def commit() -> str:
-    """The commit of the checkout with '+' if files differ from it; 'unknown' outside a checkout."""
+    """The commit of the checkout with '+' if files other than results differ from it; 'unknown' outside a checkout."""
     root = Path(__file__).parent
     try:
         head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=root, capture_output=True, text=True, check=True).stdout.strip()
-        dirty = subprocess.run(["git", "status", "--porcelain", "-uno"], cwd=root, capture_output=True, text=True, check=True).stdout.strip()
+        dirty = subprocess.run(["git", "status", "--porcelain", "-uno", "--", ":/", ":(top,exclude)results"], cwd=root, capture_output=True, text=True, check=True).stdout.strip()
         return head + ("+" if dirty else "")
     except (OSError, subprocess.CalledProcessError):
         return "unknown"
