@@ -64,7 +64,8 @@ def mixed(tasks: Sequence[Task]) -> list[Task]:
 def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance: Callable[[int], None] = lambda n: None,
         prepare: Callable[[], None] | None = None, memory: int = MEMORY) -> None:
     """Run all tasks, each in a fresh process, `workers` at a time. seconds: limit for one item. log: what processes print.
-    prepare: called first in each process. memory: bytes after which a worker is replaced. WorkerError with the worker's traceback where our own code fails.
+    prepare: called first in each process. memory: bytes after which a worker is replaced. ValueError where a worker
+    met bad input, WorkerError with its traceback where our own code fails.
 
     A fresh process for each task makes results independent of the number of workers: what an engine leaves in its memory
     is seen by the later items of the same task alone. No pool of a library does this: loky and concurrent.futures break as a
@@ -117,6 +118,9 @@ def _work(prepare, open_, argument, items, seconds, memory, journal, log) -> Non
                 stream.flush()
                 if resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 > memory:
                     os._exit(RECYCLE_EXIT)
+        except ValueError as error:  # bad input, said in words; where it came from is in the log
+            traceback.print_exc()
+            pickle.dump(ValueError(str(error)), stream)
         except Exception:
             pickle.dump(WorkerError(traceback.format_exc()), stream)
     os._exit(0)  # past the destructors of engines, some of which crash
@@ -129,7 +133,7 @@ def _read(journal: Path) -> list[Any]:
             found.append(pickle.load(stream))
         except (EOFError, pickle.UnpicklingError):
             return found
-        if isinstance(found[-1], WorkerError):
+        if isinstance(found[-1], (WorkerError, ValueError)):
             raise found[-1]
 
 

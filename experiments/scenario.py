@@ -14,6 +14,10 @@ from .case import Case
 from .truth.label import Truth
 
 
+class ScenarioError(ValueError):
+    """A scenario that draws what is no case. The message names the scenario, the level and the draw."""
+
+
 @dataclass(frozen=True)
 class Draft:
     """What a scenario's `generate` returns: two bodies, two poses, A's motion, and tags to split tables by."""
@@ -46,11 +50,16 @@ class Scenario:
     redraw_if: Sequence[str] = ()
 
     def case(self, seed: int, level: float, index: int, attempt: int = 0) -> Case:
-        """The same case for the same arguments, whatever was made before it. Inputs are snapped to float32."""
+        """The same case for the same arguments, whatever was made before it. Inputs are snapped to float32. ScenarioError where it is none."""
         self.check_level(level)
         key = [seed, zlib.crc32(self.name.encode()), list(self.levels).index(level), index, attempt]
-        d = self.generate(np.random.default_rng(key), level)
-        query = Query(self.question, d.a, d.b, snap_pose(d.pose_a), snap_pose(d.pose_b), snap_motion(d.motion))
+        try:
+            d = self.generate(np.random.default_rng(key), level)
+            if not isinstance(d, Draft):
+                raise TypeError(f"generate returned {type(d).__name__}, not a Draft (of experiments.scenario).")
+            query = Query(self.question, d.a, d.b, snap_pose(d.pose_a), snap_pose(d.pose_b), snap_motion(d.motion))
+        except (ValueError, TypeError) as error:
+            raise ScenarioError(f"Scenario '{self.name}' drew no case at level {level:g}, index {index}, seed {seed}: {error}") from error
         return Case(f"{self.name}/{level:g}/{index:04d}", self.name, float(level), index, query, dict(d.tags or {}))
 
     def check_level(self, level: float) -> None:

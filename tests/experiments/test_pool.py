@@ -19,6 +19,8 @@ def _open(kill_at):
             time.sleep(60)
         if item == kill_at.get("raise"):
             raise ZeroDivisionError("ours")
+        if item == kill_at.get("refuse"):
+            raise ValueError(f"{item} is no number of ours")
         if item == kill_at.get("crash at exit"):
             weakref.finalize(os, os.abort)
         return item * item
@@ -83,3 +85,10 @@ def test_a_worker_that_leaks_is_replaced_and_loses_nothing(tmp_path):
 def test_an_error_of_ours_is_raised_with_its_traceback(tmp_path):
     with pytest.raises(WorkerError, match="ZeroDivisionError: ours"):
         _results(tmp_path, [[1, 2, 3]], {"raise": 2})
+
+
+def test_bad_input_is_said_in_its_own_words(tmp_path):
+    """What a reader did wrong is one paragraph of the command, not a traceback through the pool; that is in the log."""
+    with pytest.raises(ValueError, match="^3 is no number of ours$"):
+        _results(tmp_path, [[1, 2, 3]], {"refuse": 3})
+    assert "Traceback" in (tmp_path / "log").read_text()

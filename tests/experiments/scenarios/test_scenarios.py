@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 import experiments.scenarios.feature_gap
-from experiments.scenario import Scenario, snap
+from experiments.scenario import Draft, Scenario, ScenarioError, snap
 from experiments.scenarios import get, load_file, scenarios
+from experiments.shapes import box
+from ofg import Body, Pose
 
 FAMILIES = scenarios()
 EVERY_LEVEL = [pytest.param(s, level, id=f"{s.name}/{level:g}") for s in FAMILIES.values() for level in s.levels]
@@ -89,3 +91,15 @@ def test_load_file_refuses_a_file_without_one(tmp_path, text):
         load_file(path)
     with pytest.raises(ValueError, match="does not exist"):
         load_file(tmp_path / "missing.py")
+
+
+@pytest.mark.parametrize("draw, said", [
+    (lambda rng, level: None, "NoneType, not a Draft"),
+    (lambda rng, level: Draft(Body.convex(np.full((4, 3), np.nan)), None, Pose(), Pose()), "finite"),
+    (lambda rng, level: Draft(box(1, 1, 1), box(1, 1, 1), Pose(position=(0, 0)), Pose()), "position must have shape"),
+])
+def test_what_draws_no_case_is_named(draw, said):
+    """A reader's mistake in `generate` once ended in the words of a body that nobody could place."""
+    mistaken = Scenario("mine", "overlap", "mistakes", "none", (3.0,), draw)
+    with pytest.raises(ScenarioError, match=rf"'mine' drew no case at level 3, index 7, seed 5: .*{said}"):
+        mistaken.case(5, 3.0, 7)
