@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from functools import partial
 from time import perf_counter
+from typing import Callable
 
 import pandas as pd
 
@@ -24,8 +25,11 @@ PACE = ["build_s", "query_s"]  # seconds, on a busy machine: good to plan the re
 PACES = ("parts", "pace.parquet")
 
 
-def ask(store: Store, config: RunConfig, workers: int) -> None:
-    """Write observations.parquet, a row per case and method; parts that are there already are not made again."""
+def ask(store: Store, config: RunConfig, workers: int, told: Callable[[str, list[dict]], None] = lambda label, rows: None) -> None:
+    """Write observations.parquet, a row per case and method; parts that are there already are not made again.
+
+    told(label, rows): called with the rows of each chunk of a method, with their PACE, when it is done.
+    """
     if store.has("observations.parquet"):
         return
     cases = [case for case, _ in cases_of(store.read("cases.parquet"), store.read("bodies.parquet"))]
@@ -36,7 +40,9 @@ def ask(store: Store, config: RunConfig, workers: int) -> None:
         for i, chunk in enumerate(chunks):
             names.append(("parts", "observations", f"{m:03d}-{i:05d}.parquet"))
             if not store.has(*names[-1]):
-                tasks.append(_task(store, config, method, chunk, names[-1]))
+                tasks.append(_task(store, config, method, chunk, names[-1], told))
+            else:
+                told(method.label, store.read(*names[-1]).to_dict("records"))
     total = len(cases) * len(methods)
     with stage("ask methods", total, total - sum(len(t.items) for t in tasks)) as advance:
         run(mixed(tasks), workers, config.build_seconds + config.query_seconds, store.path("workers.log"), advance, partial(load_files, config))
@@ -45,8 +51,9 @@ def ask(store: Store, config: RunConfig, workers: int) -> None:
     store.write(rows[COLUMNS], "observations.parquet")
 
 
-def _task(store: Store, config: RunConfig, method, chunk: list[Case], name) -> Task:
+def _task(store: Store, config: RunConfig, method, chunk: list[Case], name, told) -> Task:
     def done(rows):
+        told(method.label, rows)
         frame = pd.DataFrame(rows, columns=COLUMNS + PACE).astype({"hit": "boolean"})
         store.write(frame, *name)
 

@@ -216,9 +216,14 @@ def _moved(before, after) -> str:
 @app.command()
 def figures(run_: Run) -> None:
     """Draw the figures of a finished run anew."""
+    from . import curves
     from . import figures as drawn
+    from . import tables as made
 
-    drawn.accuracy_speed(_open(run_))
+    store = _open(run_)
+    curves.save(store, list(made.build(store)))
+    if store.has("timings.parquet"):
+        drawn.accuracy_speed(store)
     console.print(f"Figures are in {run_ / 'figures'}.")
 
 

@@ -26,6 +26,7 @@ class Forecast:
         self.done = {name: 0.0 for name in plan}  # share of each stage
         self.spent = {name: 0.0 for name in plan}
         self.already = {name: 0.0 for name in plan}  # share that an earlier, interrupted run has done
+        self.foreseen: dict[str, tuple[float, float]] = {}  # stage -> seconds left, and when that was said
         self.current, self.since = None, 0.0
         self.history: list[tuple[float, float]] = []  # seconds gone, seconds said to be left
 
@@ -33,7 +34,12 @@ class Forecast:
         """seconds: a better plan than there was. skipped: the share that an earlier, interrupted run has done."""
         self.plan[name] = self.plan.get(name, 0.0) if seconds is None else seconds
         self.done[name], self.already[name], self.spent[name] = skipped, skipped, 0.0
+        self.foreseen.pop(name, None)
         self.current, self.since = name, self.clock()
+
+    def foresee(self, name: str, seconds: float) -> None:
+        """What is left of a stage, from somebody who knows better than plan and pace do; until it is said anew, or the stage begins."""
+        self.foreseen[name] = seconds, self.clock()
 
     def advance(self, share: float) -> None:
         self.done[self.current] = min(1.0, self.done[self.current] + share)
@@ -48,7 +54,10 @@ class Forecast:
         total = 0.0
         for name, planned in self.plan.items():
             todo = 1.0 - self.done[name]
-            if name == self.current:
+            if name in self.foreseen and todo:
+                seconds, said = self.foreseen[name]
+                total += max(0.0, seconds - (self.clock() - said if name == self.current else 0.0))
+            elif name == self.current:
                 since_told = self.clock() - self.since - self.spent[name]
                 total += max(0.0, todo * self._pace(planned) - since_told)
             else:
@@ -71,10 +80,10 @@ class Forecast:
         return trust * self.spent[self.current] / gone + (1 - trust) * planned
 
     def at_half(self) -> tuple[float, float] | None:
-        """What was said to be left in the middle of the time that the run took, and what was; None for a run of a moment."""
+        """What stood on the screen to be left in the middle of the time that the run took, and what was; None for a run of a moment."""
         gone = sum(self.spent.values())
-        said = [(at, left) for at, left in self.history if at >= gone / 2]
-        return (said[0][1], gone - said[0][0]) if said and gone > 1 else None
+        told = [(at, left) for at, left in self.history if at <= gone / 2]
+        return (max(0.0, told[-1][1] - (gone / 2 - told[-1][0])), gone / 2) if told and gone > 1 else None
 
 
 class _Left(ProgressColumn):

@@ -6,11 +6,14 @@ import json
 import math
 import os
 import shutil
+import statistics
 from pathlib import Path
+
+import pandas as pd
 
 from baselines import registry
 
-from . import answering, figures, labelling, manifest, progress, scenarios, tables, timing
+from . import answering, curves, figures, labelling, manifest, progress, scenarios, tables, timing
 from .config import ConfigError, RunConfig, load_files
 from .report import report as html_report
 from .stepping import experiment as stepping
@@ -45,7 +48,7 @@ def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missin
     else:
         with progress.forecast(plan(config, workers)) as forecast:
             labelling.make_cases(store, config, workers)
-            answering.ask(store, config, workers)
+            answering.ask(store, config, workers, Paces(store, config, workers, forecast).told)
             timing.measure(store, config)
         note(store, finished=manifest.now(), after=manifest.machine(), workers=workers, halfway=halfway(forecast))
     made = report(store)
@@ -57,6 +60,7 @@ def report(store: Store) -> list[tables.Table]:
     """Write tables/, figures/ and report.html from the rows of the run (figures and report not of the stepping track)."""
     made = list(tables.build(store))
     tables.save(store, made)
+    curves.save(store, made)
     if store.has("timings.parquet"):
         figures.accuracy_speed(store)
     if store.has("observations.parquet"):
@@ -72,6 +76,34 @@ def plan(config: RunConfig, workers: int) -> dict[str, float]:
     calls = min(cases, bins * config.timing.cases) * methods * (config.timing.rounds + config.timing.warmup)
     return {"certify cases": LABEL_SECONDS * cases / workers, "ask methods": (PROCESS_SECONDS * processes + ASK_SECONDS * cases * methods) / workers,
             "time methods": 3 * timing.START * bins + CALL_SECONDS * calls}
+
+
+class Paces:
+    """Tells the forecast, with each chunk of answers, what asking and timing will still take."""
+
+    def __init__(self, store: Store, config: RunConfig, workers: int, forecast: progress.Forecast):
+        self.config, self.workers, self.forecast, self.begun = config, workers, forecast, None
+        cases = store.read("cases.parquet").assign(situation=timing.situation_of, faces=lambda c: timing.size_of(c.faces))
+        self.question = dict(zip(cases.case, cases.question))
+        bins = cases[cases.label != "uncertain"].groupby(["question", "faces", "situation"], observed=True).size().clip(upper=config.timing.cases)
+        self.bins = {question: list(sizes) for question, sizes in bins.groupby(level="question")} if config.timing.cases else {}
+        self.left = {m.label: len(cases) for spec in config.asked for m in registry.make(spec)}
+        self.paces: dict[str, pd.DataFrame] = {}
+
+    def told(self, label: str, rows: list[dict]) -> None:
+        limit = self.config.query_seconds
+        pace = pd.DataFrame([{"question": self.question[r["case"]], **{c: r.get(c, math.nan) for c in answering.PACE},
+                              "seconds": limit if r["status"] == "timeout" else 0.0} for r in rows])
+        pace["seconds"] += pace.build_s.fillna(0.0) + pace.query_s.fillna(0.0) + PROCESS_SECONDS / answering.CHUNK
+        self.paces[label] = pd.concat([self.paces[label], pace]) if label in self.paces else pace
+        self.left[label] -= len(rows)
+        known = {name: own.seconds.mean() for name, own in self.paces.items()}
+        other = statistics.median(known.values())  # one slow method says nothing of those that have not answered yet
+        asking = sum(n * known.get(name, other) for name, n in self.left.items()) / self.workers
+        self.forecast.foresee("ask methods", asking)
+        calls = sum(map(sum, self.bins.values())) * (self.config.timing.rounds + self.config.timing.warmup)
+        unknown = (len(self.left) - len(known)) * CALL_SECONDS * calls
+        self.forecast.foresee("time methods", timing.foresee(self.bins, self.paces, self.config.timing) + unknown)
 
 
 def halfway(forecast: progress.Forecast) -> dict | None:

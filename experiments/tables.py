@@ -49,7 +49,7 @@ def build(store: Store) -> Iterator[Table]:
 
 def general(store: Store, found: pd.DataFrame) -> Iterator[Table]:
     """The tables that every run has."""
-    makers = [truth_table(store), method_table(store, found)]
+    makers = [truth_table(store), method_table(store, found), *([leaderboard(found)] if found.question.nunique() > 1 else [])]
     for question in found.question.unique():
         part = found[(found.question == question) & (found.detail != f"does not answer {question}")]
         makers += [accuracy_table(part, question), scenario_table(part, question)]
@@ -237,6 +237,28 @@ def method_table(store: Store, found: pd.DataFrame) -> Table:
     text = frame.assign(answers=[" ".join(q[0] for q in a.split()) for a in frame.answers], bodies=[" ".join(k[0] for k in b.split()) for b in frame.bodies])
     return Table("methods", "Methods.", "As they declare themselves. Answers: overlap, translation, motion; bodies: convex, mesh, union. A method is left out of the tables of "
                  "questions that it does not answer.", frame, text.astype(str), optional=("guarantee", "engine"))
+
+
+def leaderboard(found: pd.DataFrame) -> Table:
+    """All questions at once: a row per method, the least share of wrong answers first."""
+    counts = metrics.rates(found, ["method"])
+    counts["wrong"], counts["judged"] = counts.misses + counts.false_alarms, counts.hits + counts.clears
+    counts["wrong_low"], counts["wrong_high"] = zip(*(metrics.wilson(w, n) for w, n in zip(counts.wrong, counts.judged)))
+    counts = counts.assign(share=counts.wrong / counts.judged).sort_values(["share", "wrong_high"], kind="stable", na_position="last")
+    text = pd.DataFrame({"method": counts.method, "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
+                         "wrong": _fraction(counts, "wrong", "judged"), "95 %": _interval(counts, "wrong")})
+    each = metrics.rates(found, ["method", "question"])
+    for question in found.question.unique():
+        kinds = (("misses", "hits", "missed"), ("false_alarms", "clears", "false"))
+        own = each[each.question == question].set_index("method")[[c for kind in kinds for c in kind[:2]]].reindex(counts.method, fill_value=0)
+        for count, total, name in kinds:
+            counts[f"{question}_{count}"], counts[f"{question}_{total}"] = own[count].to_numpy(), own[total].to_numpy()
+            text[f"{question} {name}"] = _fraction(own, count, total)
+    text["in margin"] = counts.conservative.astype(str).to_list()
+    numbers = counts[["method", "asked", "answered", "wrong", "judged", "wrong_low", "wrong_high", "conservative", *(c for c in counts if c.startswith(tuple(QUESTIONS)))]]
+    return Table("leaderboard", "Leaderboard, all questions.", "Misses and false alarms of the certified cases answered, least share first, 95 % Wilson intervals "
+                 "in percent. A method that answers fewer cases had fewer chances to be wrong: compare within a column. In margin: as in the accuracy tables.",
+                 numbers, text, False, ("95 %", "in margin"))
 
 
 def accuracy_table(part: pd.DataFrame, question: str) -> Table:

@@ -40,7 +40,7 @@ from .store import Store
 SIZES = ((0, "to 24"), (25, "25-150"), (151, "151-700"), (701, "over 700"))  # least number of faces, name
 NEAR = 1e-2  # of gap over size: what lies closer to touching is timed apart from the rest
 LEAST_ROUNDS = 3
-START = 2.0  # seconds: a process that imports every engine
+START = 1.0  # seconds: a process that imports every engine
 COLUMNS = ["question", "faces", "situation", "method", "case", "build_ns", "rounds_ns"]
 PROBE = "(noise probe)"
 FLOOR = "(floor)"
@@ -100,6 +100,20 @@ def expected(store: Store, bins: list[Bin], timing: TimingChoice) -> list[float]
             total += once.build_s + rounds_within(once.query_s, timing, timing.warmup) * once.query_s
         seconds.append(total)
     return seconds
+
+
+def foresee(bins: dict[str, list[int]], paces: dict[str, pd.DataFrame], timing: TimingChoice) -> float:
+    """As `expected`, before all has been asked. bins: cases of each bin, by question. paces: of methods, what they have answered so far:
+    a row per case, with its question, and NaN where it was not answered."""
+    total = START * sum(map(len, bins.values()))
+    for pace in paces.values():
+        for question, sizes in bins.items():
+            own = pace[pace.question == question]
+            if not len(own) or own.query_s.isna().all():
+                continue
+            build, query, share = own.build_s.mean(), own.query_s.mean(), own.query_s.notna().mean()
+            total += sum(share * n * (build + rounds_within(n * query, timing, timing.warmup) * query) for n in sizes)
+    return total
 
 
 def rounds_within(once: float, timing: TimingChoice, warmup: int = 0) -> int:

@@ -64,3 +64,31 @@ def test_what_an_interrupted_run_had_done_does_not_make_the_rest_look_fast():
 @pytest.mark.parametrize("seconds, words", [(35, "35 s"), (700, "12 min"), (4800, "1 h 20 min")])
 def test_spoken(seconds, words):
     assert spoken(seconds) == words
+
+
+def test_what_is_foreseen_takes_the_place_of_plan_and_pace():
+    clock = Clock()
+    forecast = Forecast({"a": 10.0, "b": 10.0}, clock)
+    forecast.begin("a")
+    forecast.foresee("a", 60.0)
+    forecast.foresee("b", 100.0)
+    clock.now = 20.0
+    assert forecast.left() == pytest.approx(40 + 100)
+    forecast.advance(1.0)
+    forecast.end()
+    assert forecast.left() == pytest.approx(100)
+    forecast.begin("b", 80.0)  # which knows still better
+    assert forecast.left() == pytest.approx(80)
+
+
+def test_at_half_is_what_stood_on_the_screen_then():
+    """A stage of one long last step: nothing was said after its first half, and "0 s left" at its end is no forecast."""
+    clock = Clock()
+    forecast = Forecast({"a": 100.0}, clock)
+    forecast.begin("a")
+    clock.now = 10.0
+    forecast.advance(0.1)
+    clock.now = 100.0
+    forecast.advance(0.9)
+    forecast.end()
+    assert forecast.at_half() == (pytest.approx(50), pytest.approx(50))

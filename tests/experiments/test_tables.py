@@ -116,3 +116,19 @@ def test_a_wide_table_is_printed_in_strips_that_fit(monkeypatch):
     strips = _strips(text)
     assert len(strips) > 1 and [c for strip in strips for c in strip[1:]] == list(text.columns[1:])
     assert all(strip[0] == "method" and _width(text[strip]) <= console.width for strip in strips)
+
+
+def test_the_leaderboard_counts_all_questions_and_puts_the_least_share_of_errors_first():
+    run = Run()
+    swept = run.cases.assign(case=run.cases.case + "2", question="translation", start="clear", end="clear")
+    run.cases = pd.concat([run.cases, swept], ignore_index=True)
+    more = [("ofg k=8", c + "2", "ok", c in "abc", nan, "") for c in "abcde"] + [("brute-force", c, "ok", c in "abc", nan, "") for c in "abcde"]
+    more = pd.DataFrame(more, columns=run.observations.columns).astype({"hit": "boolean"})
+    run.observations = pd.concat([run.observations[run.observations.method == "ofg k=8"], more], ignore_index=True)
+    found = metrics.outcomes(run)
+    text = tables.leaderboard(found).text.set_index("method")
+    assert list(text.index) == ["brute-force", "ofg k=8"]  # 0 of 4; 2 of 8
+    own = text.loc["ofg k=8"]
+    assert (own.wrong, own["overlap missed"], own["overlap false"], own["translation missed"], own["translation false"]) == ("2/8", "1/3", "1/1", "0/3", "0/1")
+    assert (text.loc["brute-force", "wrong"], text.loc["brute-force", "translation missed"]) == ("0/4", "-")
+    assert own["95 %"] == "{:.1f}-{:.1f}".format(*(100 * b for b in metrics.wilson(2, 8)))
