@@ -40,7 +40,7 @@ from .store import Store
 SIZES = ((0, "to 24"), (25, "25-150"), (151, "151-700"), (701, "over 700"))  # least number of faces, name
 NEAR = 1e-2  # of gap over size: what lies closer to touching is timed apart from the rest
 LEAST_ROUNDS = 3
-START = 2.0  # seconds: a process that imports every engine
+START = 1.2  # seconds: a process that imports every engine (0.8 in `quick`, 2.3 in `standard`)
 COLUMNS = ["question", "faces", "situation", "method", "case", "build_ns", "rounds_ns"]
 PROBE = "(noise probe)"
 FLOOR = "(floor)"
