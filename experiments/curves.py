@@ -74,7 +74,7 @@ def draw(table: Table, axis_name: str) -> plt.Figure:
         _scale(axis, table.choice.value, points)
         axis.set_title(engine, fontsize=9)
         axis.set_xlim(-0.2, len(ticks) - 0.8)
-        axis.set_xticks(range(len(ticks)), ticks, rotation=90 if max(map(len, ticks)) > 5 or len(ticks) > 8 else 0)
+        axis.set_xticks(range(len(ticks)), ticks, rotation=90 if max(map(len, ticks)) > 4 or len(ticks) > 8 else 0)
         if reference and reference not in methods:
             own = points[points.method == reference]
             axis.plot(own.x, own.y, color="0.6", lw=1, ls=(0, (3, 2)), zorder=1)
