@@ -17,6 +17,7 @@ from ofg import Body, Query
 from ofg.decomposition import kept_at
 
 from .. import metrics, scenarios, tables
+from ..progress import stage
 from ..rows import cases_of
 from ..store import Store
 from ..timing import FLOOR, LOST, PROBE, SIZES, situation_of, size_of
@@ -271,10 +272,12 @@ def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
     shapes, ours = Shapes(BYTES), found[found.method.str.split().str[0] == "ofg"]
     first = ours.method.iloc[:1].tolist()
     wrong = ours[ours.outcome.isin(["miss", "false alarm"]) | (ours.error > 0)].groupby("case", sort=False).method.agg(list)
-    for i in order:
-        labels = [label for label in wanted.get(i, ()) if label.split()[0] == "ofg"]
-        labels = list(dict.fromkeys([*labels, *wrong.get(i, [])]))
-        shapes.add(place[i], *known[i], labels or first, OVERLAYS)
+    with stage("draw cases for the page", len(order)) as advance:
+        for i in order:
+            labels = [label for label in wanted.get(i, ()) if label.split()[0] == "ofg"]
+            labels = list(dict.fromkeys([*labels, *wrong.get(i, [])]))
+            shapes.add(place[i], *known[i], labels or first, OVERLAYS)
+            advance(1)
     return shapes.packed()
 
 
