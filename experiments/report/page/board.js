@@ -127,7 +127,7 @@ function bar(rate, [low, high]) {
 const link = (to, text, title) =>
   el("button", { type: "button", class: "link", title: title || "show these cases", onclick: () => openCases(to) }, text);
 
-const PALETTE = ["var(--c0)", "var(--c1)", "var(--c2)", "var(--c3)", "var(--c4)", "var(--c5)", "var(--c6)", "var(--c7)"];
+const PALETTE = Array.from({ length: 10 }, (_, i) => `var(--c${i})`); // an engine each; there are nine
 function engineColour(engine) {
   const engines = [...new Set(D.methods.map((m) => m.engine))];
   return PALETTE[engines.indexOf(engine) % PALETTE.length];
