@@ -8,12 +8,14 @@ import numpy as np
 import pandas as pd
 
 from . import metrics
+from .rows import filled
 from .store import Store
 
 SAME_TIME = 1e-9  # of the step: reported times of impact that differ by less are the same, so that libm's last bit is no change
 # What a case asks. Another processor's sines can move the last bit of an aimed pose or vertex past a float32 boundary (7 bodies of 459 cases
 # when AVX was masked); such a case is another question, and its answers are not compared.
-INPUT = ("body_a", "body_b", "quaternion_a", "position_a", "quaternion_b", "position_b", "displacement", "axis", "angle")
+INPUT = ("body_a", "body_b", "quaternion_a", "position_a", "quaternion_b", "position_b", "displacement", "axis", "angle", "about", "displacement_b", "axis_b",
+         "angle_b", "about_b")
 REFERENCE = (*INPUT, "case", "scenario", "level", "question", "size", "faces", "tags", "label", "t_lo", "t_hi", "start", "end", "gap", "certificate")
 
 
@@ -46,7 +48,7 @@ class Difference:
 
 def compare(first: Store, second: Store) -> Difference:
     """Raises StoreError for a run that is not finished."""
-    a, b = metrics.outcomes(first), metrics.outcomes(second)
+    a, b = (metrics.outcomes(store).drop(columns=list(INPUT), errors="ignore") for store in (first, second))
     remade = _remade(first, second)
     both = a[~a.case.isin(remade)].merge(b, on=["case", "method"], suffixes=("_a", "_b"))
     labels = _labels(first, second)
@@ -56,7 +58,7 @@ def compare(first: Store, second: Store) -> Difference:
 
 def _remade(first: Store, second: Store) -> list[str]:
     """Cases of both runs whose bodies, poses or motion differ."""
-    sides = [store.read("cases.parquet").set_index("case")[list(INPUT)].astype(str).agg(" ".join, axis=1) for store in (first, second)]
+    sides = [filled(store.read("cases.parquet")).set_index("case")[list(INPUT)].astype(str).agg(" ".join, axis=1) for store in (first, second)]
     before, after = sides[0].align(sides[1], join="inner")
     return list(before.index[before != after])
 
@@ -64,7 +66,7 @@ def _remade(first: Store, second: Store) -> list[str]:
 def reference(run: Store, into: Store) -> None:
     """Keep of a run what `compare` needs for accuracy: answers and labels, without bodies, certificates and times."""
     run.read("observations.parquet")
-    cases = run.read("cases.parquet").assign(certificate="")
+    cases = filled(run.read("cases.parquet")).assign(certificate="")
     into.write_text(run.config.model_dump_json(indent=1) + "\n", "config.json")
     into.write(cases[list(REFERENCE)], "cases.parquet")
     into.write(run.read("observations.parquet").assign(detail=lambda t: t.detail.str.slice(0, 60)), "observations.parquet")
@@ -76,7 +78,8 @@ def _only(a: pd.Series, b: pd.Series) -> tuple[list[str], list[str]]:
 
 
 def _labels(first: Store, second: Store) -> pd.DataFrame:
-    both = first.read("cases.parquet").merge(second.read("cases.parquet"), on="case", suffixes=("_a", "_b"))
+    columns = ["case", "label", "start", "end"]
+    both = first.read("cases.parquet")[columns].merge(second.read("cases.parquet")[columns], on="case", suffixes=("_a", "_b"))
     moved = both[(both.label_a != both.label_b) | (both.start_a != both.start_b) | (both.end_a != both.end_b)]
     return pd.DataFrame({"case": moved.case, "before": moved.label_a, "after": moved.label_b}).reset_index(drop=True)
 

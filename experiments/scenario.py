@@ -20,7 +20,7 @@ class ScenarioError(ValueError):
 
 @dataclass(frozen=True)
 class Draft:
-    """What a scenario's `generate` returns: two bodies, two poses, A's motion, and tags to split tables by."""
+    """What a scenario's `generate` returns: two bodies, two poses, A's motion, tags to split tables by, and B's motion."""
 
     a: Body
     b: Body
@@ -28,6 +28,7 @@ class Draft:
     pose_b: Pose
     motion: Motion = Motion()
     tags: Mapping[str, str | float] = None
+    motion_b: Motion = Motion()
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ class Scenario:
             d = self.generate(np.random.default_rng(key), level)
             if not isinstance(d, Draft):
                 raise TypeError(f"generate returned {type(d).__name__}, not a Draft (of experiments.scenario).")
-            query = Query(self.question, d.a, d.b, snap_pose(d.pose_a), snap_pose(d.pose_b), snap_motion(d.motion))
+            query = Query(self.question, d.a, d.b, snap_pose(d.pose_a), snap_pose(d.pose_b), snap_motion(d.motion), snap_motion(d.motion_b))
         except (ValueError, TypeError) as error:
             raise ScenarioError(f"Scenario '{self.name}' drew no case at level {level:g}, index {index}, seed {seed}: {error}") from error
         return Case(f"{self.name}/{level:g}/{index:04d}", self.name, float(level), index, query, dict(d.tags or {}))
@@ -80,4 +81,4 @@ def snap_pose(pose: Pose) -> Pose:
 
 
 def snap_motion(motion: Motion) -> Motion:
-    return Motion(snap(motion.displacement), snap(motion.axis), float(np.float32(motion.angle)))
+    return Motion(snap(motion.displacement), snap(motion.axis), float(np.float32(motion.angle)), snap(motion.about))

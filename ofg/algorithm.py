@@ -83,7 +83,7 @@ def rotational_sweep(
 def ask(query: Query, *, k: int = 8, **options) -> Answer:
     """The answer to a Query, by the variant that its question names."""
     return _ask(
-        query.question != "overlap", query.a, query.b, query.pose_a, query.pose_b, query.motion, Motion(), OFG, k=k, **options
+        query.question != "overlap", query.a, query.b, query.pose_a, query.pose_b, query.motion, query.motion_b, OFG, k=k, **options
     )
 
 
@@ -97,7 +97,7 @@ def brute_force(query: Query, *, precision: str = "double") -> Answer:
         query.pose_a,
         query.pose_b,
         query.motion,
-        Motion(),
+        query.motion_b,
         BRUTE_FORCE,
         precision=precision,
     )
@@ -136,7 +136,7 @@ def brute_force_many(
 def prepare(query: Query, *, algorithm: int = OFG, precision: str = "double", **options) -> _core.Prepared:
     """A callable that asks `query` in the core and returns (hit, time): what a harness times."""
     poses = np.array([_row(query.pose_a), _row(query.pose_b)])
-    motions = np.array([_row(query.motion), _row(Motion())])
+    motions = np.array([_row(query.motion), _row(query.motion_b)])
     return _core.Prepared(
         solid(query.a),
         solid(query.b),

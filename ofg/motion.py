@@ -1,7 +1,8 @@
-"""How a body moves over one step: it turns about its own origin and translates, both at constant speed."""
+"""How a body moves over one step: it turns about one of its points and translates, both at constant speed."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,25 +12,55 @@ from .pose import Pose, _vector
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """x(t) = p + t d + Rot(axis/|axis|, angle t) R(q) v for t in [0, 1], from a start pose (q, p).
+    """x(t) = p + R(q) c + t d + Rot(axis/|axis|, angle t) R(q) (v - c) for t in [0, 1], from a start pose (q, p).
 
-    displacement: (3,) float64, length. axis: (3,) float64, any non-zero length, fixed in the world. angle: radians over
-    the step, any size (2 pi n is n full turns). A Motion() is rest.
+    displacement: d, (3,) float64, length: of the point c over the step. axis: (3,) float64, any non-zero length, fixed in the
+    world. angle: radians over the step, any size (2 pi n is n full turns). about: c, (3,) float64, the point of the body, in the
+    body's frame, about which it turns; the origin of that frame by default. A Motion() is rest.
     Raises ValueError for numbers that are not finite, or a zero axis with a non-zero angle.
     """
 
     displacement: np.ndarray = field(default_factory=lambda: np.zeros(3))
     axis: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, 1.0]))
     angle: float = 0.0
+    about: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     def __post_init__(self):
         object.__setattr__(self, "displacement", _vector(self.displacement, 3, "displacement"))
         object.__setattr__(self, "axis", _vector(self.axis, 3, "axis"))
+        object.__setattr__(self, "about", _vector(self.about, 3, "about"))
         object.__setattr__(self, "angle", float(self.angle))
         if not np.isfinite(self.angle):
             raise ValueError(f"Motion.angle = {self.angle} is not finite.")
         if self.angle and not self.axis.any():
             raise ValueError("Motion.axis is zero while Motion.angle is not; give the axis of the turn.")
+
+    @classmethod
+    def degrees(cls, displacement=(0, 0, 0), axis=(0, 0, 1), angle: float = 0.0, about=(0, 0, 0)) -> Motion:
+        """A motion whose angle is given in degrees, rounded to double radians."""
+        return cls(displacement, axis, math.radians(angle), about)
+
+    @classmethod
+    def between(cls, pose0: Pose, pose1: Pose, about=(0, 0, 0)) -> Motion:
+        """The motion at constant velocity from one pose to another, as FCL, Bullet and Box2D state it; in double rounding.
+
+        The body turns by the shorter way, at most half a turn, about its point `about`, which moves on a straight line.
+        """
+        about = _vector(about, 3, "about")
+        # Unit quaternions first: the product of unnormalised ones can leave the range of doubles.
+        q0, q1 = (p.quaternion / np.abs(p.quaternion).max() for p in (pose0, pose1))
+        turn = _multiply(q1, q0 * [1, -1, -1, -1])
+        turn = -turn if turn[0] < 0 else turn
+        sine = float(np.linalg.norm(turn[1:]))
+        displacement = pose1.apply(about[None])[0] - pose0.apply(about[None])[0]
+        if sine == 0:
+            return cls(displacement)
+        return cls(displacement, turn[1:] / sine, 2 * math.atan2(sine, turn[0]), about)
+
+    @property
+    def rests(self) -> bool:
+        """Neither translates nor turns."""
+        return not (self.displacement.any() or self.angle)
 
     def pose_at(self, start: Pose, t: float) -> Pose:
         """The pose at time t of a body that starts at `start` (double rounding)."""
@@ -37,8 +68,12 @@ class Motion:
         if not self.angle:
             return Pose(start.quaternion, position)
         half = 0.5 * self.angle * t
-        turn = np.concatenate([[np.cos(half)], np.sin(half) * self.axis / np.linalg.norm(self.axis)])
-        return Pose(_multiply(turn, start.quaternion), position)
+        axis = self.axis / np.abs(self.axis).max()
+        turn = Pose(np.concatenate([[math.cos(half)], math.sin(half) * axis / np.linalg.norm(axis)]))
+        if self.about.any():
+            arm = start.rotation @ self.about
+            position = position + (arm - turn.rotation @ arm)
+        return Pose(_multiply(turn.quaternion, start.quaternion), position)
 
 
 def _multiply(p: np.ndarray, q: np.ndarray) -> np.ndarray:

@@ -15,9 +15,9 @@ QUESTIONS = ("overlap", "translation", "motion")
 class Query:
     """Do the interiors of two solids meet, and from when on?
 
-    question: "overlap": at the given poses. "translation": while A translates by motion.displacement in t in [0, 1].
-    "motion": while A turns about its own origin and translates. B is at rest: give the relative motion.
-    Raises ValueError where the motion does not fit the question.
+    question: "overlap": at the given poses. "translation": while the bodies translate in t in [0, 1]. "motion": while they turn
+    and translate. motion: that of A. motion_b: that of B, which rests by default.
+    Raises ValueError where a motion does not fit the question.
     """
 
     question: str
@@ -26,11 +26,17 @@ class Query:
     pose_a: Pose = field(default_factory=Pose)
     pose_b: Pose = field(default_factory=Pose)
     motion: Motion = field(default_factory=Motion)
+    motion_b: Motion = field(default_factory=Motion)
 
     def __post_init__(self):
         if self.question not in QUESTIONS:
             raise ValueError(f"Query.question = '{self.question}' is unknown; use one of {', '.join(QUESTIONS)}.")
-        if self.question == "overlap" and (self.motion.displacement.any() or self.motion.angle):
-            raise ValueError("Query.question = 'overlap' asks about one pair of poses, but a motion is given; ask 'translation' or 'motion'.")
-        if self.question == "translation" and self.motion.angle:
-            raise ValueError("Query.question = 'translation' cannot turn, but motion.angle is not 0; ask 'motion'.")
+        for name, motion in (("motion", self.motion), ("motion_b", self.motion_b)):
+            if self.question == "overlap" and not motion.rests:
+                raise ValueError(f"Query.question = 'overlap' asks about one pair of poses, but {name} moves; ask 'translation' or 'motion'.")
+            if self.question == "translation" and motion.angle:
+                raise ValueError(f"Query.question = 'translation' cannot turn, but {name}.angle is not 0; ask 'motion'.")
+
+    def swapped(self) -> Query:
+        """The same question with A and B exchanged; its answer is the same."""
+        return Query(self.question, self.b, self.a, self.pose_b, self.pose_a, self.motion_b, self.motion)
