@@ -80,12 +80,15 @@ def norm(v) -> arb:
     return s.sqrt() if s > 0 else arb(0, s.abs_upper().sqrt().abs_upper())
 
 
-def greatest(values) -> arb:
+def greatest(values):
+    """The largest: a rational where all are, else a ball."""
+    if all(isinstance(x, (int, fmpq)) for x in values):
+        return max(values)
     best = arb(values[0])
     for x in values[1:]:
         best = best.max(arb(x))
     return best
 
 
-def least(values) -> arb:
-    return -greatest([-arb(x) for x in values])
+def least(values):
+    return -greatest([-x for x in values])

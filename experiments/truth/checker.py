@@ -2,7 +2,8 @@
 
 A label is taken apart into obligations: convex sets apart over an interval, a point inside a tetrahedron or a mesh, an exact
 time. Each is settled by doubles with an error bound (filter.py) or else here, by rationals and balls of 256 bits (Arb).
-World points, relative to p_A: x(t) = t d + Rot(k/|k|, theta t) R(q_A) v for A, b = p_B - p_A + R(q_B) v for B, which rests.
+Points, in the frame of geometry.Pair: x(t) = t d + Rot(k_A, theta_A t) R(q_A) (v - about_A) for A, and
+y(t) = dp + Rot(k_B, theta_B t) R(q_B) (v - about_B) for B.
 """
 
 from typing import NamedTuple
@@ -13,7 +14,10 @@ from flint import arb
 
 from . import filter
 from .balls import BITS, add, ball, cross, dot, finite, greatest, least, mul, norm, number, rational, transposed, vector
-from .geometry import Pair, elements, parts, points, support
+from .geometry import Pair, centre, elements, parts, points, support
+
+
+FRAMES = ("W", "A", "B")
 
 
 class Check(NamedTuple):
@@ -24,16 +28,18 @@ class Check(NamedTuple):
 
 
 class Apart(NamedTuple):
-    """Plane n, fixed in space or turning with A, keeps the hulls of (m, 3) A and B farther apart than gap over [s, e]."""
+    """Plane n keeps the hulls of (m, 3) A and B farther apart than gap over [s, e]. frame: "W" (n is fixed in space), "A" or "B"
+    (n turns with that body). closed: the hulls may touch the plane (gap 0), as convex bodies' may and a mesh's triangles not."""
 
     pair: Pair
     A: np.ndarray
     B: np.ndarray
     s: float
     e: float
-    turning: bool
+    frame: str
     n: list
     gap: float
+    closed: bool
 
 
 class Within(NamedTuple):
@@ -140,15 +146,16 @@ def clear(pair, cert, start, end, gap):
             )
         sides.append((points(body, order), count))
     (A, na), (B, nb) = sides
+    solid = pair.a.kind != "mesh" and pair.b.kind != "mesh"
     stack = [(cert["tree"], (0, na), (0, nb), start, True)]
     while stack:
         (segments, split), ra, rb, s, owing = stack.pop()
         if segments:
             a, b = A.of(*ra), B.of(*rb)
         for e, frame, *n in segments:
-            if not (s <= e and frame in ("W", "A") and len(n) == 3):
+            if not (s <= e and frame in FRAMES and len(n) == 3):
                 raise Refused("segments are out of order")
-            yield Apart(pair, a, b, s, e, frame == "A", [finite(c) for c in n], gap)
+            yield Apart(pair, a, b, s, e, frame, [finite(c) for c in n], gap, solid)
             s, owing = e, False
         if s < end or owing:
             require(split is not None, "some elements are not shown apart to the end")
@@ -176,33 +183,77 @@ def common(pair, cert, t):
 
 
 def apart(o, vertices=None, near=None):
-    """f(t), the plane's distance from a vertex of the side that moves past it (Q), must stay above gap |n|. The side at rest with
-    the plane (P) gives its support. |f''| <= M, so f >= chord - (M h^2 / 2) x (1 - x): positive if f(s), f(e) > 0 and
-    max + 3 min > M h^2 / 2. vertices of Q and candidates `near` in P: those that doubles could not settle; all if None."""
-    RA, RB, dp, d, k, theta = o.pair.exact
-    n, s, e = [number(c) for c in o.n], rational(o.s), rational(o.e)
-    sign, P, RP, Q, RQ = (1, o.A, RA, o.B, RB) if o.turning else (-1, o.B, RB, o.A, RA)
-    m = ball(transposed(RP, n))
-    support = greatest([sign * dot(m, ball(p)) for p in (P if near is None else P[near]).tolist()]) + rational(o.gap) * norm(n)
-    lines, offsets = [], []
-    for t in (s, e):
-        w, shift = o.pair.turn(sign * t, n), add(dp, d, -t)  # A's plane turns with A; a plane at rest turns back in A's frame
-        lines.append((ball(transposed(RQ, w)), dot(shift, w if o.turning else n) - support))
-        offsets.append(ball(transposed(RQ, shift)) if o.turning else ball((0, 0, 0)))
-    kQ, slide = ball(transposed(RQ, k)), 2 * abs(theta) * norm(cross(k, d)) if o.turning else 0
-    bend = norm(cross(n, k)) * (arb(e) - arb(s)) ** 2 / 2
-    for v in map(ball, (Q if vertices is None else Q[vertices]).tolist()):
-        f = [sign * dot(line, v) + c for line, c in lines]
-        M = theta**2 * greatest([norm(cross(kQ, add(v, offset))) for offset in offsets]) + slide if theta and e > s else 0
-        if not (f[0] > 0 and f[1] > 0 and 3 * least(f) + greatest(f) > M * bend):
+    """f(t), the distance along the plane of a vertex of one side (Q) from the support of the other (P), must exceed gap |n|.
+
+    |f''| <= M, so f >= chord - (M h^2 / 2) x (1 - x): positive if f(s), f(e) > 0 and max + 3 min > M h^2 / 2; not negative with
+    >= in place of >. vertices of Q and candidates `near` in P: those that doubles could not settle; all if None."""
+    X, n, times = o.pair.exact, [number(c) for c in o.n], (rational(o.s), rational(o.e))
+    require(any(n), "a plane without a normal keeps nothing apart")
+    on_b = o.frame == "A"
+    P, Q = (o.A, o.B) if on_b else (o.B, o.A)
+    supports = (P if near is None else P[near]).tolist()
+    Q = [vector(v) for v in (Q if vertices is None else Q[vertices]).tolist()]
+    ends = [_end(o, n, t, supports, on_b) for t in times]
+    bound = _bend(o, n, times, P.tolist(), on_b) if times[1] > times[0] and (X.turn_a[1] or X.turn_b[1]) else lambda v: 0
+    half = (times[1] - times[0]) ** 2 / 2
+    for v in Q:
+        f = [dot(line, v) + offset for line, offset in ends]
+        M, low, high = bound(v) * half, least(f), greatest(f)
+        fine = (low >= 0 and 3 * low + high >= M) if o.closed and not o.gap else (low > 0 and 3 * low + high > M)
+        if not fine:
             raise Refused(f"a plane does not keep A and B apart by {o.gap} over [{o.s}, {o.e}]")
 
 
+def _end(o, n, t, P, on_b):
+    """(line, offset) with f(t) = line . v + offset for a vertex v of Q."""
+    X, pair = o.pair.exact, o.pair
+    (RP, cP, turn_p), (RQ, cQ, turn_q) = (X.RA, X.about_a, pair.turn_a), (X.RB, X.about_b, pair.turn_b)
+    if not on_b:
+        (RP, cP, turn_p), (RQ, cQ, turn_q) = (RQ, cQ, turn_q), (RP, cP, turn_p)
+    sign = 1 if on_b else -1
+    normal, seen = (n, turn_p(-t, n)) if o.frame == "W" else (turn_p(t, n), n)  # in space, and as P's frame at the start sees it
+    m = [sign * c for c in transposed(RP, seen)]
+    support = greatest([dot(m, vector(p)) for p in P]) - dot(m, cP)
+    line = [sign * c for c in transposed(RQ, turn_q(-t, normal))]
+    return line, dot(normal, add(X.dp, X.d, -t)) - support - dot(line, cQ) - (rational(o.gap) * norm(n) if o.gap else 0)
+
+
+def _bend(o, n, times, P, on_b):
+    """The bound M on |f''| over the interval, as a function of a vertex of Q. README.md derives it."""
+    X, pair = o.pair.exact, o.pair
+    (RP, cP, (kP, wP)), (RQ, cQ, (kQ, wQ)) = (X.RA, X.about_a, X.turn_a), (X.RB, X.about_b, X.turn_b)
+    turn_q = pair.turn_b
+    if not on_b:
+        (RP, cP, (kP, wP)), (RQ, cQ, (kQ, wQ)), turn_q = (RQ, cQ, (kQ, wQ)), (RP, cP, (kP, wP)), pair.turn_a
+    wP, wQ, h = abs(wP), abs(wQ), times[1] - times[0]
+    axis = transposed(RQ, kQ)
+
+    def spin(v):
+        return norm(cross(axis, add(v, cQ, -1))) if wQ else 0
+
+    if o.frame == "W":
+        reach = greatest([norm(cross(transposed(RP, kP), add(vector(p), cP, -1))) for p in P]) if wP else 0
+        fixed = wP**2 * norm(cross(n, kP)) * reach
+        bend = wQ**2 * norm(cross(n, kQ))
+        return lambda v: bend * spin(v) + fixed
+    sign = 1 if on_b else -1
+    k = transposed(RQ, turn_q(-times[0], kP))
+    arms = [transposed(RQ, turn_q(-times[0], [sign * c for c in add(X.dp, X.d, -t)])) for t in times]
+    slide, across, length = norm(cross(kP, X.d)), norm(cross(n, kP)), norm(n)
+
+    def bound(v):
+        r, own = add(v, cQ, -1), spin(v)
+        arm = greatest([norm(cross(k, add(r, a))) for a in arms]) + wQ * h * own
+        return across * (wP**2 * arm + 2 * wP * (slide + wQ * own)) + length * wQ**2 * own
+
+    return bound
+
+
 def within(o, *_):
-    RA, RB, dp, d, _, _ = o.pair.exact
-    pose = o.pair.query.pose_b if o.of_b else o.pair.query.pose_a
-    x = add([number(c) for c in o.x], vector(pose.position), -1)
-    y = transposed(RB, x) if o.of_b else transposed(RA, o.pair.turn(-rational(o.t), add(x, d, -rational(o.t))))
+    q, t = o.pair.query, rational(o.t)
+    pose, motion = (q.pose_b, q.motion_b) if o.of_b else (q.pose_a, q.motion)
+    x = add(add([number(c) for c in o.x], centre(pose, motion), -1), vector(motion.displacement), -t)
+    y = _inward(o.pair, o.of_b, t, x)
     if o.corners is None:
         return require(winding(o.pair.b if o.of_b else o.pair.a, y), "the point is not inside the mesh")
     w = [add(vector(v), y, -1) for v in o.corners]
@@ -211,13 +262,27 @@ def within(o, *_):
 
 
 def without(o, *_):
-    RA, RB, dp, d, _, _ = o.pair.exact
-    t = rational(o.t)
+    X, t = o.pair.exact, rational(o.t)
+    between = add(X.dp, X.d, -t)
     if o.of_b:
-        y = transposed(RA, o.pair.turn(-t, add(add(mul(RB, vector(o.v)), dp), d, -t)))
+        y = _inward(o.pair, False, t, add(_outward(o.pair, True, t, o.v), between))
     else:
-        y = transposed(RB, add(add(o.pair.turn(t, mul(RA, vector(o.v))), d, t), dp, -1))
+        y = _inward(o.pair, True, t, add(_outward(o.pair, False, t, o.v), between, -1))
     require(winding(o.pair.a if o.of_b else o.pair.b, y) == 0, "a part of one body may lie inside the other")
+
+
+def _outward(pair, of_b, t, v):
+    """Vertex v of a body at time t, relative to its point of turning."""
+    X = pair.exact
+    R, about, turn = (X.RB, X.about_b, pair.turn_b) if of_b else (X.RA, X.about_a, pair.turn_a)
+    return turn(t, mul(R, add(vector(v), about, -1)))
+
+
+def _inward(pair, of_b, t, x):
+    """A point at time t, relative to a body's point of turning, in that body's frame."""
+    X = pair.exact
+    R, about, turn = (X.RB, X.about_b, pair.turn_b) if of_b else (X.RA, X.about_a, pair.turn_a)
+    return add(transposed(R, turn(-t, x)), about)
 
 
 def winding(mesh, y):
@@ -241,9 +306,9 @@ def winding(mesh, y):
 
 def exact_time(pair, cert, t_lo, t_hi):
     """Rational t* of a translation: n touches a piece of A and one of B at t*, weights show a common point, and n.d > 0."""
-    RA, RB, dp, d, _, theta = pair.exact
+    RA, RB, dp, d = pair.exact[:4]
     t, n = number(cert["time"]), [number(c) for c in cert["normal"]]
-    require(not theta and rational(t_lo) <= t <= rational(t_hi), "the exact time lies outside its bracket")
+    require(not (pair.theta_a or pair.theta_b) and rational(t_lo) <= t <= rational(t_hi), "the exact time lies outside its bracket")
     A, B = (body.pieces[cert[key]["piece"]] for key, body in (("a", pair.a), ("b", pair.b)))
     apart_by = dot(n, dp) - support(B, transposed(RB, [-c for c in n]))[0] - support(A, transposed(RA, n))[0]
     require(dot(n, d) > 0 and apart_by == t * dot(n, d), "the plane does not touch both bodies at t*")

@@ -21,7 +21,7 @@ ROUNDS = 60
 def exact_time(query: Query, piece_a: int, piece_b: int, plane) -> dict | None:
     """The certificate's `exact` for these pieces, from a plane (3 doubles) near the touching one; None where it degenerates."""
     a, b = query.a.pieces[piece_a], query.b.pieces[piece_b]
-    d = vector(query.motion.displacement)
+    d = add(vector(query.motion.displacement), vector(query.motion_b.displacement), -1)
     RA, RB = (rotation(*map(rational, p.quaternion)) for p in (query.pose_a, query.pose_b))
     dp = add(vector(query.pose_b.position), vector(query.pose_a.position), -1)
 
@@ -81,7 +81,7 @@ def _portals(query, a, b, plane):
     n = np.array(plane) / np.linalg.norm(plane)
     key_a, key_b = A @ n, B @ n
     size = np.ptp(key_a) + np.ptp(key_b)
-    dp, d = query.pose_b.position - query.pose_a.position, query.motion.displacement
+    dp, d = query.pose_b.position - query.pose_a.position, query.motion.displacement - query.motion_b.displacement
     for near, most in ((1e-10, 9), (1e-10, 32), (1e-7, 32), (1e-4, 32), (1e-2, 32), (0.1, 32), (0.5, 32)):
         ia = np.flatnonzero(key_a >= key_a.max() - near * size)
         ib = np.flatnonzero(key_b <= key_b.min() + near * size)

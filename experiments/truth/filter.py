@@ -1,16 +1,19 @@
 """The checker's doubles: settles an obligation only by more than its rounding error, in batches; the rest is left to the balls.
 
-Error of n.x(t) in double: at most E = 256 u (1 + |theta|) |n|_1 reach, u = 2**-53, reach >= |v|_1 + |b|_1 + |dp|_1 + |d|_1.
-(Rotation entries 10 u, products and sums of three 6 u, sin and cos of a rounded theta t 2 u + 2 u |theta|, turn about k 40 u,
-dp and t d rounded once each: together below 128 u.) Sums that may have been rounded below 2**-1022 are left to the balls.
+Error of n.x(t) in double: at most E = 256 u (1 + |theta_A| + |theta_B|) |n|_1 reach, u = 2**-53, reach >= |v|_1 + |b|_1 +
+|about_A|_1 + |about_B|_1 + |dp|_1 + |d|_1. (Rotation entries 10 u, products and sums of three 6 u, sin and cos of a rounded
+theta t 2 u + 2 u |theta|, a turn about k 40 u and at most two of them, dp, d, t d and v - about rounded once each: together
+below 128 u.) Sums that may have been rounded below 2**-1022 are left to the balls.
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from . import checker, geometry
-from .balls import add, nearest_double, number, rotation, vector
+from .balls import add, nearest_double, number, rational, rotation, vector
 
 UNIT = 2.0**-53
 
@@ -23,26 +26,39 @@ def settle(obligations) -> list[tuple]:
         return sorted(_apart(apart) + _points(points), key=lambda entry: entry[0])
 
 
+class Side(NamedTuple):
+    """A body's numbers, a row per obligation: R (n, 3, 3), about, k (n, 3), theta (n,)."""
+
+    R: np.ndarray
+    about: np.ndarray
+    k: np.ndarray
+    theta: np.ndarray
+
+    def where(self, here, other: Side) -> Side:
+        """This side's rows where `here`, else the other's."""
+        return Side(*(np.where(here.reshape(-1, *[1] * (x.ndim - 1)), x, y) for x, y in zip(self, other)))
+
+    def turned(self, t, v):
+        """Rot(k, theta t) v, row by row."""
+        return _turned(self.theta * t, self.k, v) if self.theta.any() else v
+
+    def spins(self, points, of):
+        """(rows of `points`) |k x R (v - about)|."""
+        return _norm(_cross(_apply(self.R, self.k)[of], points - self.about[of]))
+
+
 class Numbers:
-    """The pairs' numbers, a row each: RA, RB (n, 3, 3), dp, d, k (n, 3), theta, reach (n,)."""
+    """The pairs' numbers, a row per obligation: a, b (Side), dp, d (n, 3), reach, swing (n,): 1 + |theta_A| + |theta_B|."""
 
     def __init__(self, pairs):
         seen = {}
         index = [seen.setdefault(id(p), len(seen)) for p in pairs]
         rows = np.array([p.row for p in {id(p): p for p in pairs}.values()])
-        k = rows[:, 14:17]
-        self.RA, self.RB, self.dp, self.d, self.k, self.theta, self.reach = (
-            x[index]
-            for x in (
-                _rotation(rows[:, 0:4]),
-                _rotation(rows[:, 4:8]),
-                rows[:, 8:11],
-                rows[:, 11:14],
-                k / np.where(k.any(1), _norm(k), 1.0)[:, None],
-                rows[:, 17],
-                rows[:, 18],
-            )
-        )
+        ka, kb = (k / np.where(k.any(1), _norm(k), 1.0)[:, None] for k in (rows[:, 14:17], rows[:, 17:20]))
+        self.a = Side(*(x[index] for x in (_rotation(rows[:, 0:4]), rows[:, 20:23], ka, rows[:, 26])))
+        self.b = Side(*(x[index] for x in (_rotation(rows[:, 4:8]), rows[:, 23:26], kb, rows[:, 27])))
+        self.dp, self.d, self.reach = (x[index] for x in (rows[:, 8:11], rows[:, 11:14], rows[:, 28]))
+        self.swing = 1 + np.abs(self.a.theta) + np.abs(self.b.theta)
 
 
 def _apart(jobs) -> list[tuple]:
@@ -50,50 +66,67 @@ def _apart(jobs) -> list[tuple]:
         return []
     os = [o for _, o in jobs]
     N = Numbers([o.pair for o in os])
-    RA, RB, dp, d, k, theta, reach = N.RA, N.RB, N.dp, N.d, N.k, N.theta, N.reach
     n = np.array([o.n if all(type(c) is float for c in o.n) else [nearest_double(c) for c in o.n] for o in os])
-    s, e, turning, gap = (np.array(column) for column in zip(*[(*o[3:6], o[7]) for o in os]))
-    error = 256 * UNIT * (1 + np.abs(theta)) * np.abs(n).sum(1) * reach
+    s, e, gap = (np.array([getattr(o, name) for o in os]) for name in ("s", "e", "gap"))
+    frame = np.array([o.frame for o in os])
+    on_b, fixed = frame == "A", frame == "W"  # Q, the side whose vertices are asked one by one, is B where the plane turns with A
+    P, Q, sign = N.a.where(on_b, N.b), N.b.where(on_b, N.a), np.where(on_b, 1.0, -1.0)
+    error = 256 * UNIT * N.swing * np.abs(n).sum(1) * N.reach
     margin = gap * _norm(n) * (1 + 8 * UNIT) + 2 * error
 
-    Ps, Qs = [o.A if o.turning else o.B for o in os], [o.B if o.turning else o.A for o in os]
+    Ps, Qs = [o.A if o.frame == "A" else o.B for o in os], [o.B if o.frame == "A" else o.A for o in os]
     p_first, p_of = _rows(Ps)
     q_first, q_of = _rows(Qs)
-    RP, RQ = (np.where(turning[:, None, None], x, y) for x, y in ((RA, RB), (RB, RA)))
-    sign = np.where(turning, 1.0, -1.0)
-    key = _products(Ps, _apply(RP, n) * sign[:, None], p_of)
-    top = np.maximum.reduceat(key, p_first)
-    fixed = np.where(turning, -top, (dp * n).sum(1) - top)
-
-    ends = []
+    ends, keys, tops = [], [], []
     for t in (s, e):
-        w = _turned(np.where(turning, 1.0, -1.0) * theta * t, k, n)
-        shift = dp - t[:, None] * d
-        c = fixed + np.where(turning, (shift * w).sum(1), -t * (d * n).sum(1))
-        ends.append((c - margin)[q_of] + _products(Qs, _apply(RQ, w) * sign[:, None], q_of))
-        if (s == e).all():
-            ends.append(ends[0])
+        if t is e and (s == e).all():
+            ends, keys, tops = 2 * ends, 2 * keys, 2 * tops
             break
+        normal = np.where(fixed[:, None], n, P.turned(t, n))
+        m = _apply(P.R, np.where(fixed[:, None], P.turned(-t, n), n)) * sign[:, None]
+        keys.append(_products(Ps, m, p_of))
+        tops.append(np.maximum.reduceat(keys[-1], p_first))
+        line = _apply(Q.R, Q.turned(-t, normal)) * sign[:, None]
+        shift = N.dp - t[:, None] * N.d
+        c = (normal * shift).sum(1) - tops[-1] + (m * P.about).sum(1) - (line * Q.about).sum(1)
+        ends.append((c - margin)[q_of] + _products(Qs, line, q_of))
     low, high = np.minimum(*ends), np.maximum(*ends)
     bend = 0.0
-    if theta.any() and (e > s).any():
-        Q, kQ, arms = np.concatenate(Qs), _apply(RQ, k), []
-        for t in (s, e):
-            offset = np.where(turning[:, None], _apply(RQ, dp - t[:, None] * d), 0.0)
-            arms.append(_norm(_cross(kQ[q_of], Q + offset[q_of])))
-        slide = np.where(turning, 2 * np.abs(theta) * _norm(_cross(k, d)), 0.0)
-        bound = _norm(_cross(n, k))[q_of] * (theta[q_of] ** 2 * np.maximum(*arms) + slide[q_of])
-        bend = (bound * (1 + 1e-9) + ((theta**2 + np.abs(theta)) * error)[q_of]) * (((e - s) + 4 * UNIT) ** 2 / 2)[q_of]
+    if (N.swing > 1).any() and (e > s).any():
+        M = _bend(N, P, Q, n, s, e, sign, fixed, (np.concatenate(Ps), p_first, p_of), (np.concatenate(Qs), q_of))
+        room = ((N.swing**2) * error)[q_of]
+        bend = (M * (1 + 1e-9) + room) * (((e - s) + 4 * UNIT) ** 2 / 2)[q_of]
     sure = (low > 0) & (high + 3 * low > bend) & ((error > 1e-140) & (error < 1e140))[q_of]
     open_ = []
     for i in np.flatnonzero(~np.logical_and.reduceat(sure, q_first)):
-        mine, of = slice(q_first[i], q_first[i] + len(os[i].B if os[i].turning else os[i].A)), p_first[i]
-        keys = key[of : of + len(os[i].A if os[i].turning else os[i].B)]
+        mine, its = (slice(first[i], first[i] + len(side[i])) for first, side in ((q_first, Qs), (p_first, Ps)))
         trusted = 1e-140 < error[i] < 1e140
-        open_.append(
-            (jobs[i][0], np.flatnonzero(~sure[mine]), np.flatnonzero(keys >= top[i] - 4 * error[i]) if trusted else None)
-        )
+        near = np.logical_or.reduce([key[its] >= top[i] - 4 * error[i] for key, top in zip(keys, tops)])
+        open_.append((jobs[i][0], np.flatnonzero(~sure[mine]), np.flatnonzero(near) if trusted else None))
     return open_
+
+
+def _bend(N, P, Q, n, s, e, sign, fixed, of_p, of_q):
+    """The bound M of checker._bend, a row per vertex of Q. A plane at rest takes the reach of all of P, which needs no support."""
+    points, q_of = of_q
+    wP, wQ = np.abs(P.theta), np.abs(Q.theta)
+    spin = Q.spins(points, q_of) if wQ.any() else np.zeros(len(points))
+    M = (wQ**2 * _norm(_cross(n, Q.k)))[q_of] * spin
+    if (wP[fixed] > 0).any():
+        block, p_first, p_of = of_p
+        reach = np.maximum.reduceat(P.spins(block, p_of), p_first)
+        M = M + (wP**2 * _norm(_cross(n, P.k)) * reach)[q_of]
+    if fixed.all():
+        return M
+    k, arm = _apply(Q.R, Q.turned(-s, P.k)), np.zeros(len(points))
+    for t in (s, e):
+        shift = sign[:, None] * (N.dp - t[:, None] * N.d)
+        offset = _apply(Q.R, Q.turned(-s, shift)) - Q.about
+        arm = np.maximum(arm, _norm(_cross(k[q_of], points + offset[q_of])))
+    slide = _norm(_cross(P.k, N.d))
+    spun = wQ[q_of] * spin
+    turning = _norm(_cross(n, P.k))[q_of] * ((wP**2)[q_of] * (arm + (e - s)[q_of] * spun) + 2 * wP[q_of] * (slide[q_of] + spun))
+    return np.where(fixed[q_of], M, turning + (_norm(n) * wQ)[q_of] * spun)
 
 
 def _points(jobs) -> list[tuple]:
@@ -106,13 +139,13 @@ def _points(jobs) -> list[tuple]:
     of_b, t = np.array([o.of_b for o in os]), np.array([o.t for o in os])
     x = np.array([o.v if type(o) is checker.Without else _offset(o) for o in os])
     span = N.reach + np.abs(x).sum(1)
-    shift = t[:, None] * N.d
-    b = np.where(vertex[:, None], _apply(N.RB.transpose(0, 2, 1), x) + N.dp, x) - shift  # Without: B's vertex seen from A
-    a = _turned(N.theta * t, N.k, _apply(N.RA.transpose(0, 2, 1), x)) + shift - N.dp  # Without: A's vertex seen from B
-    in_a = _apply(N.RA, _turned(-N.theta * t, N.k, b))
-    in_b = _apply(N.RB, np.where(vertex[:, None], a, x))
-    y = np.where((vertex == of_b)[:, None], in_a, in_b)
-    rho = 256 * UNIT * (1 + np.abs(N.theta)) * span
+    between = N.dp - t[:, None] * N.d
+    # A vertex of one body (B's if of_b) as seen from the other's point of turning; a point already is.
+    own = N.b.where(of_b, N.a)
+    out = own.turned(t, np.einsum("tij,tj->ti", own.R, x - own.about)) + np.where(of_b[:, None], between, -between)
+    seen = N.a.where(vertex == of_b, N.b)
+    y = _apply(seen.R, seen.turned(-t, np.where(vertex[:, None], out, x))) + seen.about
+    rho = 256 * UNIT * N.swing * span
     solid = np.array([getattr(o, "corners", None) is not None for o in os])
     open_ = ~solid
     if solid.any():
@@ -136,11 +169,13 @@ def _in_tetrahedra(corners, y, rho):
 
 
 def _offset(o):
-    """x - p of the body in doubles, each coordinate rounded once."""
-    position = (o.pair.query.pose_b if o.of_b else o.pair.query.pose_a).position.tolist()
-    if all(type(c) is float for c in o.x):
-        return [c - p for c, p in zip(o.x, position)]
-    return [nearest_double(c) for c in add([number(c) for c in o.x], vector(position), -1)]
+    """x at time t, relative to the body's point of turning there, in doubles, each coordinate rounded once."""
+    q = o.pair.query
+    pose, motion = (q.pose_b, q.motion_b) if o.of_b else (q.pose_a, q.motion)
+    if o.t == 0 and not motion.angle and all(type(c) is float for c in o.x):
+        return [c - p for c, p in zip(o.x, pose.position.tolist())]
+    there = add(geometry.centre(pose, motion), vector(motion.displacement), rational(o.t))
+    return [nearest_double(c) for c in add([number(c) for c in o.x], there, -1)]
 
 
 def winding(mesh, y, rho):

@@ -4,54 +4,106 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import lcm
+from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from flint import arb, fmpq, fmpz, fmpz_mat
 
-from .balls import add, cross, dot, norm, rational, rotation, vector
+from .balls import add, cross, dot, mul, nearest_double, norm, rational, rotation, vector
 
 CACHES = _reaches, _parts, _boxes, _integers = tuple(WeakKeyDictionary() for _ in range(4))  #: by body
 
 
 class Pair:
-    """A query taken apart. row: its numbers in doubles for the filter: q_A, q_B (4 each), dp = p_B - p_A, d, the motion's axis
-    divided by its largest component (3 each), theta, and a bound on |v|_1 + |b|_1 + |dp|_1 + |d|_1."""
+    """A query taken apart, in a frame that moves with B's displacement and has its origin where A's point of turning starts.
+
+    There A's point of turning moves by d = d_A - d_B, and B's stays at dp. row: the numbers in doubles for the filter: q_A, q_B
+    (4 each), dp, d, the axes divided by their largest component (3 each), the points of turning about_A, about_B (3 each), the
+    angles, and a bound on |v|_1 + |b|_1 + |about_A|_1 + |about_B|_1 + |dp|_1 + |d|_1.
+    """
 
     def __init__(self, query):
-        m = query.motion
-        self.query, self.a, self.b, self.theta = query, query.a, query.b, float(m.angle)
-        d, axis, pa, pb = m.displacement.tolist(), m.axis.tolist(), query.pose_a.position.tolist(), query.pose_b.position.tolist()
-        dp = [y - x for x, y in zip(pa, pb)]
-        top = max(map(abs, axis)) or 1.0
-        span = reach(self.a) + reach(self.b) + sum(map(abs, dp)) + sum(map(abs, d))
+        ma, mb = query.motion, query.motion_b
+        self.query, self.a, self.b, self.theta_a, self.theta_b = query, query.a, query.b, float(ma.angle), float(mb.angle)
+        about = [(m.about if m.angle else 0 * m.about).tolist() for m in (ma, mb)]
+        self.about_a, self.about_b = about
+        positions = [p.position.tolist() for p in (query.pose_a, query.pose_b)]
+        if any(about[0]) or any(about[1]):
+            dp = [nearest_double(c) for c in self.exact.dp]
+        else:
+            dp = [y - x for x, y in zip(*positions)]
+        d = [x - y for x, y in zip(ma.displacement.tolist(), mb.displacement.tolist())]
+        span = reach(self.a) + reach(self.b) + sum(map(abs, (*dp, *d, *about[0], *about[1])))
         self.row = [
             *query.pose_a.quaternion.tolist(),
             *query.pose_b.quaternion.tolist(),
             *dp,
             *d,
-            *(c / top for c in axis),
-            self.theta,
+            *_scaled(ma.axis.tolist()),
+            *_scaled(mb.axis.tolist()),
+            *about[0],
+            *about[1],
+            self.theta_a,
+            self.theta_b,
             span,
         ]
 
     @cached_property
     def exact(self):
-        """(RA, RB, dp, d, k, theta): rationals, but for the unit axis k, whose length is a root: balls."""
-        q, m = self.query, self.query.motion
+        """Rationals, but for the unit axes, whose length is a root: balls."""
+        q = self.query
         RA, RB = (rotation(*map(rational, p.quaternion)) for p in (q.pose_a, q.pose_b))
-        dp = add(vector(q.pose_b.position), vector(q.pose_a.position), -1)
-        axis = vector(m.axis)
-        k = [arb(c) / norm(axis) for c in axis] if self.theta else vector((0, 0, 0))
-        return RA, RB, dp, vector(m.displacement), k, rational(self.theta)
+        dp = add(centre(q.pose_b, q.motion_b), centre(q.pose_a, q.motion), -1)
+        d = add(vector(q.motion.displacement), vector(q.motion_b.displacement), -1)
+        turns = [(_axis(m), rational(m.angle)) for m in (q.motion, q.motion_b)]
+        return Exact(RA, RB, dp, d, *turns, vector(self.about_a), vector(self.about_b))
 
-    def turn(self, t, v):
-        """Rot(k, theta t) v in balls; v itself where nothing turns, so that rationals stay rational."""
-        k, theta = self.exact[4:]
-        if not theta or not t:
-            return v
-        s, c = arb(theta * t).sin_cos()
-        return add(add([c * x for x in v], cross(k, v), s), k, (1 - c) * dot(k, v))
+    def turn_a(self, t, v):
+        """Rot(k_A, theta_A t) v in balls; v itself where nothing turns, so that rationals stay rational."""
+        return _turned(*self.exact.turn_a, t, v)
+
+    def turn_b(self, t, v):
+        return _turned(*self.exact.turn_b, t, v)
+
+
+class Exact(NamedTuple):
+    """RA, RB: rows of the rotations at the start. dp, d: see Pair. turn_a, turn_b: unit axis and angle. about: points of turning."""
+
+    RA: list
+    RB: list
+    dp: list
+    d: list
+    turn_a: tuple
+    turn_b: tuple
+    about_a: list
+    about_b: list
+
+
+def centre(pose, motion) -> list:
+    """Where a body's point of turning starts, in the world, in rationals; its position where it does not turn."""
+    if not (motion.angle and motion.about.any()):
+        return vector(pose.position)
+    return add(vector(pose.position), mul(rotation(*map(rational, pose.quaternion)), vector(motion.about)))
+
+
+def _axis(motion) -> list:
+    if not motion.angle:
+        return vector((0, 0, 0))
+    axis = vector(motion.axis)
+    return [arb(c) / norm(axis) for c in axis]
+
+
+def _scaled(axis):
+    top = max(map(abs, axis)) or 1.0
+    return [c / top for c in axis]
+
+
+def _turned(k, theta, t, v):
+    if not theta or not t:
+        return v
+    s, c = arb(theta * t).sin_cos()
+    return add(add([c * x for x in v], cross(k, v), s), k, (1 - c) * dot(k, v))
 
 
 class points:

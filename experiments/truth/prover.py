@@ -5,10 +5,12 @@ from __future__ import annotations
 from fractions import Fraction
 from weakref import WeakKeyDictionary
 
-from ofg import Body, Query
+from ofg import Body, Motion, Pose, Query
 
 from . import _native
+from .balls import add, rational, vector
 from .exact import exact_time
+from .geometry import centre
 from .label import Truth
 
 EFFORT = 3e7  #: vertices visited per case before the prover gives up
@@ -25,19 +27,16 @@ def prove(query: Query) -> Truth:
 
 def _prove(query: Query) -> Truth:
     a, b = _solid(query.a), _solid(query.b)
-    m = query.motion
-    pair = _native.Pair(
-        query.pose_a.quaternion.tolist(),
-        query.pose_a.position.tolist(),
-        query.pose_b.quaternion.tolist(),
-        query.pose_b.position.tolist(),
-        m.displacement.tolist(),
-        m.axis.tolist(),
-        m.angle,
-    )
+    pair = _native.Pair(_mover(query.pose_a, query.motion), _mover(query.pose_b, query.motion_b))
     if query.question == "overlap":
         return _overlap(query, _native.instant(pair, a, b, 0.0, EFFORT))
     return _sweep(query, _native.sweep(pair, a, b, EFFORT))
+
+
+def _mover(pose: Pose, m: Motion) -> _native.Mover:
+    return _native.Mover(
+        *(v.tolist() for v in (pose.quaternion, pose.position, m.displacement, m.axis)), m.angle, m.about.tolist()
+    )
 
 
 def uncertain(reason: str) -> Truth:
@@ -51,7 +50,8 @@ def _overlap(query, found) -> Truth:
             "clear", start="clear", end="clear", gap=found["gap"], certificate={"clear": _apart(query, found["tree"], 0.0)}
         )
     if label == "hit":
-        return Truth("hit", start="hit", end="hit", gap=-found["depth"], certificate={"hit": _inside(query, found["common"])})
+        certificate = {"hit": _inside(query, found["common"], 0.0)}
+        return Truth("hit", start="hit", end="hit", gap=-found["depth"], certificate=certificate)
     if found["spent"]:
         return uncertain(f"the effort limit of {EFFORT:.0e} vertex visits ran out")
     return uncertain("touching: neither planes nor a common interior point were found in 106 bits")
@@ -65,15 +65,15 @@ def _sweep(query, found) -> Truth:
     certificate = {"clear": _apart(query, found["tree"], until)} if start == "clear" else {}
     if label == "clear":
         return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate=certificate)
-    certificate["hit"] = _inside(query, found["common"])
     t_lo, t_hi, end = found["t_lo"], found["t_hi"], found["end"]
+    certificate["hit"] = _inside(query, found["common"], t_hi)
     if start == "clear" and query.question == "translation" and query.a.kind == query.b.kind == "convex":
         if exact := exact_time(query, 0, 0, found["tree"][0][-1][2][:3]):
             certificate["exact"] = exact
     if end["label"] == "clear":
         certificate["end_clear"] = _apart(query, end["tree"], 1.0)
     if end["label"] == "hit":
-        certificate["end_hit"] = _inside(query, end["common"])
+        certificate["end_hit"] = _inside(query, end["common"], 1.0)
     return Truth("hit", t_lo, t_hi, start, end["label"], -found["depth"], certificate=certificate)
 
 
@@ -106,10 +106,11 @@ def _wide(n) -> list:
     return [hi if lo == 0 else str(Fraction(hi) + Fraction(lo)) for hi, lo in zip(n[:3], n[3:])]
 
 
-def _inside(query, found) -> dict:
-    """The native point is relative to p_A; the certificate's is in the world."""
-    high, low, origin = found["point"][:3], found["point"][3:], query.pose_a.position.tolist()
-    point = [Fraction(hi) + Fraction(lo) + Fraction(o) for hi, lo, o in zip(high, low, origin)]
+def _inside(query, found, t) -> dict:
+    """The native point is relative to A's point of turning and B's displacement; the certificate's is in the world."""
+    point = [Fraction(hi) + Fraction(lo) for hi, lo in zip(found["point"][:3], found["point"][3:])]
+    shift = add(centre(query.pose_a, query.motion), vector(query.motion_b.displacement), rational(t))
+    point = [x + Fraction(int(c.p), int(c.q)) for x, c in zip(point, shift)]
     point = [float(x) if Fraction(float(x)) == x else str(x) for x in point]
     return {"point": point, **{key: None if found[key][0] < 0 else list(found[key]) for key in ("a", "b")}}
 

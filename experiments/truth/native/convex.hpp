@@ -7,31 +7,45 @@
 
 namespace truth {
 
-struct Pair {  // B at rest, all relative to p_A
-    std::array<double, 4> qa, qb;
-    std::array<double, 3> pa, pb, d, k;
+// One body as the query states it: its pose, and its motion: it turns by `theta` about the axis k through its point `about`.
+struct Mover {
+    std::array<double, 4> q;
+    std::array<double, 3> p, d, k;
     double theta;
+    std::array<double, 3> about;
+};
+struct Pair {
+    Mover a, b;
 };
 
+// The power of two that brings the largest component to 1 or a little more: squares of numbers of any size stay in range.
+template <size_t N>
+double unit(const std::array<double, N>& v) {
+    double top = 0;
+    for (double c : v) top = std::max(top, std::abs(c));
+    return std::ldexp(1.0, -std::ilogb(top));
+}
 template <class T>
-struct Scene {
-    mat<T> RA, RB;
-    vec<T> dp, d, k;
+vec<T> vector(const std::array<double, 3>& v) {
+    return {T(v[0]), T(v[1]), T(v[2])};
+}
+
+template <class T>
+struct Turn {  // Rot(k, theta t), k a unit vector
+    vec<T> k;
     T theta;
-    bool turns;
-    explicit Scene(const Pair& p) {
-        RA = rotation(T(p.qa[0]), T(p.qa[1]), T(p.qa[2]), T(p.qa[3]));
-        RB = rotation(T(p.qb[0]), T(p.qb[1]), T(p.qb[2]), T(p.qb[3]));
-        dp = {T(p.pb[0]) - T(p.pa[0]), T(p.pb[1]) - T(p.pa[1]), T(p.pb[2]) - T(p.pa[2])};
-        d = {T(p.d[0]), T(p.d[1]), T(p.d[2])};
-        theta = T(p.theta);
-        turns = p.theta != 0;
-        k = {T(p.k[0]), T(p.k[1]), T(p.k[2])};
-        if (turns) k = k * (T(1) / norm(k));
+    bool on;
+    explicit Turn(const Mover& m) : k(vector<T>(m.k)), theta(T(m.theta)), on(m.theta != 0) {
+        if (on) {
+            const double u = unit(m.k);
+            k = vector<T>({m.k[0] * u, m.k[1] * u, m.k[2] * u});
+            k = k * (T(1) / norm(k));
+        } else
+            k = {};
     }
-    mat<T> turn(T t) const {
+    mat<T> at(T t) const {
         mat<T> R{{{T(1), T(0), T(0)}, {T(0), T(1), T(0)}, {T(0), T(0), T(1)}}};
-        if (!turns) return R;
+        if (!on) return R;
         T s, c;
         sincos(theta * t, s, c);
         T v = T(1) - c;
@@ -39,6 +53,27 @@ struct Scene {
         R.r[1] = {k.y * k.x * v + k.z * s, c + k.y * k.y * v, k.y * k.z * v - k.x * s};
         R.r[2] = {k.z * k.x * v - k.y * s, k.z * k.y * v + k.x * s, c + k.z * k.z * v};
         return R;
+    }
+};
+
+// Both bodies in one frame, which moves with B's displacement: A's point of turning starts at 0 and moves by d = d_A - d_B, and
+// B's stays at dp.
+template <class T>
+struct Scene {
+    mat<T> RA, RB;
+    vec<T> about_a, about_b, dp, d;
+    Turn<T> a, b;
+    explicit Scene(const Pair& p) : a(p.a), b(p.b) {
+        RA = rotation(p.a), RB = rotation(p.b);
+        if (a.on) about_a = vector<T>(p.a.about);
+        if (b.on) about_b = vector<T>(p.b.about);
+        dp = (vector<T>(p.b.p) - vector<T>(p.a.p)) + (RB * about_b - RA * about_a);
+        d = vector<T>(p.a.d) - vector<T>(p.b.d);
+    }
+    bool turns() const { return a.on || b.on; }
+    static mat<T> rotation(const Mover& m) {
+        const double u = unit(m.q);
+        return truth::rotation(T(m.q[0] * u), T(m.q[1] * u), T(m.q[2] * u), T(m.q[3] * u));
     }
 };
 
@@ -56,45 +91,43 @@ double largest(const Points<T>& p) {
     return m;
 }
 template <class T>
-Points<T> turned(const Scene<T>& s, const Vertices& A) {  // R(q_A) v
+Points<T> turned(const mat<T>& R, vec<T> about, const Vertices& v) {  // R (v - about)
     Points<T> r;
-    r.reserve(A.size());
-    for (auto& v : A) r.push_back(s.RA * vec<T>{T(v[0]), T(v[1]), T(v[2])});
+    r.reserve(v.size());
+    for (auto& x : v) r.push_back(R * (vector<T>(x) - about));
     return r;
-}
-template <class T>
-Points<T> placed(const Scene<T>& s, const Vertices& B) {  // R(q_B) v + p_B - p_A
-    Points<T> b;
-    b.reserve(B.size());
-    for (auto& v : B) b.push_back(s.RB * vec<T>{T(v[0]), T(v[1]), T(v[2])} + s.dp);
-    return b;
 }
 
 template <class T>
-struct Moving {  // A's points: r = R(q_A) v, and x at time `now`, kept for the next question at that time
+struct Moving {  // a body's points about its point of turning at t = 0, and where they are at time `now`
     Points<T> r, x;
     double now = -1;
+    const Points<T>& at(const Turn<T>& turn, vec<T> shift, bool moves, double t) {
+        if (now >= 0 && (t == now || !moves)) return x;
+        x.resize(r.size());
+        if (turn.on && t != 0) {
+            auto R = turn.at(T(t));
+            for (size_t i = 0; i < r.size(); ++i) x[i] = R * r[i] + shift;
+        } else
+            for (size_t i = 0; i < r.size(); ++i) x[i] = r[i] + shift;
+        now = t;
+        return x;
+    }
 };
 template <class T>
 struct Placed {  // two point sets in a scene
     const Scene<T>& scene;
-    Moving<T>& a;
-    const Points<T>&r, &b;
-    double reach;  // of all coordinates
-    Placed(const Scene<T>& s, Moving<T>& a, const Points<T>& b, double reach) : scene(s), a(a), r(a.r), b(b), reach(reach) {}
-    const Points<T>& at(double t) {
-        if (t == a.now) return a.x;
-        a.x.resize(r.size());
-        auto shift = scene.d * T(t);
-        if (scene.turns && t != 0) {
-            auto R = scene.turn(T(t));
-            for (size_t i = 0; i < r.size(); ++i) a.x[i] = R * r[i] + shift;
-        } else
-            for (size_t i = 0; i < r.size(); ++i) a.x[i] = r[i] + shift;
-        a.now = t;
-        return a.x;
+    Moving<T>&a_, &b_;
+    const Points<T>&r, &s;  // of A and of B, about their points of turning at t = 0
+    double reach;           // of all coordinates
+    Placed(const Scene<T>& scene, Moving<T>& a, Moving<T>& b, double reach)
+        : scene(scene), a_(a), b_(b), r(a.r), s(b.r), reach(reach) {}
+    const Points<T>& a(double t) { return a_.at(scene.a, scene.d * T(t), true, t); }
+    const Points<T>& b(double t) { return b_.at(scene.b, scene.dp, scene.b.on, t); }
+    size_t size() const { return r.size() + s.size(); }
+    double blur() const {
+        return resolution<T>() * 64 * (1 + std::abs(double(scene.a.theta)) + std::abs(double(scene.b.theta))) * reach;
     }
-    double blur() const { return resolution<T>() * 64 * (1 + std::abs(double(scene.theta))) * reach; }
 };
 
 struct Wide {
@@ -115,77 +148,129 @@ struct Inside {
     std::array<int, 4> a, b;
 };  // point relative to p_A
 
-// Does plane n (in the frame's own coordinates) keep the pair apart by `margin` over [s, e]? As the checker asks it.
+// Does plane n (in its own frame: 'W' at rest, 'A' or 'B' turning with that body) keep the pair apart by `margin` over [s, e]?
+// As the checker asks it: each point q of one side (Q) against the support of the other (P), at both ends, with a bound on the
+// second derivative in between.
 template <class T>
 bool leaf(Placed<T>& P, double s, double e, char frame, vec<T> n, T margin) {
     using std::abs;
     const auto& S = P.scene;
-    margin = margin * norm(n) + T(P.blur()) * norm(n);
-    T h = T(e) - T(s), th2 = S.theta * S.theta, half = h * h * T(0.5);
-    T nk = norm(cross(n, S.k));
-    auto holds = [&](T f0, T f1, T M) {
-        T lo = (f0 < f1 ? f0 : f1) - margin, hi = (f0 < f1 ? f1 : f0) - margin;
-        return lo > T(0) && hi + T(3) * lo > M * half;
-    };
-    if (frame == 'W') {
-        T c = dot(n, P.b[support(P.b, -n)]);
-        auto n0 = transposed(S.turn(T(s)), n), n1 = transposed(S.turn(T(e)), n);
-        T c0 = c - T(s) * dot(n, S.d), c1 = c - T(e) * dot(n, S.d);
-        for (auto& r : P.r)
-            if (!holds(c0 - dot(n0, r), c1 - dot(n1, r), S.turns ? th2 * nk * norm(cross(S.k, r)) : T(0))) return false;
-    } else {
-        T c = dot(n, P.r[support(P.r, n)]);
-        auto n0 = S.turn(T(s)) * n, n1 = S.turn(T(e)) * n;
-        T slide = T(2) * abs(S.theta) * norm(cross(S.k, S.d));
-        for (auto& b : P.b) {
-            auto w0 = b - S.d * T(s), w1 = b - S.d * T(e);
-            T f0 = dot(n0, w0) - c, f1 = dot(n1, w1) - c;
-            T a0 = norm(cross(S.k, w0)), a1 = norm(cross(S.k, w1));
-            if (!holds(f0, f1, nk * (th2 * (a0 > a1 ? a0 : a1) + slide))) return false;
+    const bool on_b = frame == 'A';  // Q is B
+    const auto &q = on_b ? P.s : P.r, &p = on_b ? P.r : P.s;
+    const Turn<T>&tq = on_b ? S.b : S.a, &tp = on_b ? S.a : S.b;
+    const T h = T(e) - T(s), half = h * h * T(0.5), sign = T(on_b ? 1 : -1);
+    margin = (margin + T(P.blur())) * norm(n);
+    vec<T> line[2], arm[2], k{};
+    T base[2];
+    for (int i = 0; i < 2; ++i) {
+        const T t = T(i ? e : s);
+        const auto nt = frame == 'W' ? n : tp.at(t) * n;
+        const auto mp = frame == 'W' ? transposed(tp.at(t), n) : n;
+        line[i] = transposed(tq.at(t), nt);
+        const auto shift = S.dp - S.d * t;
+        const auto support_p = on_b ? dot(mp, p[support(p, mp)]) : -dot(mp, p[support(p, -mp)]);
+        base[i] = dot(nt, shift) - support_p - margin;
+        if (frame != 'W') {
+            const auto back = tq.at(T(s));
+            k = transposed(back, tp.k), arm[i] = transposed(back, shift) * sign;
         }
+    }
+    const T nk = norm(cross(n, frame == 'W' ? tq.k : tp.k)), nn = norm(n), tq1 = abs(tq.theta), tp1 = abs(tp.theta);
+    T rest(0), slide = T(2) * tp1 * norm(cross(tp.k, S.d));
+    if (frame == 'W' && tp.on) {
+        T far(0);
+        for (auto& v : p) {
+            T r = norm(cross(tp.k, v));
+            if (r > far) far = r;
+        }
+        rest = tp.theta * tp.theta * norm(cross(n, tp.k)) * far;
+    }
+    for (auto& v : q) {
+        T f0 = base[0] + sign * dot(line[0], v), f1 = base[1] + sign * dot(line[1], v);
+        T lo = f0 < f1 ? f0 : f1, hi = f0 < f1 ? f1 : f0;
+        if (!(lo > T(0))) return false;
+        if (!S.turns()) continue;
+        T spin = tq.on ? norm(cross(tq.k, v)) : T(0), M;
+        if (frame == 'W')
+            M = tq.theta * tq.theta * nk * spin + rest;
+        else {
+            T a0 = norm(cross(k, v + arm[0])), a1 = norm(cross(k, v + arm[1])), a = a0 > a1 ? a0 : a1;
+            M = nk * (tp.theta * tp.theta * (a + tq1 * h * spin) + slide + T(2) * tp1 * tq1 * spin) +
+                nn * tq.theta * tq.theta * spin;
+        }
+        if (!(hi + T(3) * lo > M * half)) return false;
     }
     return true;
 }
 
-// How long n (world, at time s) surely stays a separating plane by margin |n|, in either frame.
+// How long n (world, at time s) surely stays a separating plane by margin |n|, and in which frame the longest.
 template <class T>
 T lasts(Placed<T>& P, double s, double end, vec<T> n, T margin, char& frame) {
     using std::abs;
     using std::sqrt;
     const auto& S = P.scene;
-    const auto& x = P.at(s);
+    const auto &x = P.a(s), &y = P.b(s);
+    const auto shift = S.d * T(s);
     margin = margin * norm(n);
-    T nk = norm(cross(n, S.k)), th2 = S.theta * S.theta;
     auto root = [](T f0, T f1, T M) {
         if (!(f0 > T(0))) return T(0);
         T q = f1 * f1 + T(2) * M * f0;
         T r = sqrt(q) - f1;
         return r > T(0) ? T(2) * f0 / r : T(1e30);
     };
-    T hW(1e30), hA(1e30);
-    T c = dot(n, P.b[support(P.b, -n)]) - margin, nd = dot(n, S.d);
-    auto kn = cross(n, S.k);  // n . (k x y) = (n x k) . y
-    auto shift = S.d * T(s);
-    for (auto& p : x) {
-        auto y = p - shift;
-        T h = root(c - dot(n, p), -nd - S.theta * dot(kn, y), S.turns ? th2 * nk * norm(cross(S.k, y)) : T(0));
-        if (h < hW) hW = h;
+    auto square = [](T x) { return x * x; };
+    const T nd = dot(n, S.d), nn = norm(n);
+    const auto na = cross(n, S.a.k), nb = cross(n, S.b.k);  // n . (k x y) = (n x k) . y
+    const T nka = norm(na), nkb = norm(nb), ta = abs(S.a.theta), tb = abs(S.b.theta);
+    T best(1e30);
+    {  // at rest: between A and B stands a plane that moves as the mean of the two points nearest to it
+        const int i = support(x, n), j = support(y, -n);
+        T top = dot(n, x[i]), low = dot(n, y[j]) - margin, place = low, speed(0);
+        if (S.b.on) {
+            place = (top + low) * T(0.5);
+            speed = (nd + S.a.theta * dot(na, x[i] - shift) + S.b.theta * dot(nb, y[j] - S.dp)) * T(0.5);
+            for (auto& p : y) {
+                auto r = p - S.dp;
+                T h = root(dot(n, p) - margin - place, S.b.theta * dot(nb, r) - speed, square(tb) * nkb * norm(cross(S.b.k, r)));
+                if (h < best) best = h;
+            }
+        }
+        for (auto& p : x) {
+            auto r = p - shift;
+            T h = root(place - dot(n, p), speed - nd - S.a.theta * dot(na, r),
+                       S.a.on ? square(ta) * nka * norm(cross(S.a.k, r)) : T(0));
+            if (h < best) best = h;
+        }
     }
     frame = 'W';
-    if (!S.turns) return hW;
-    c = dot(n, x[support(x, n)] - shift) + margin;
-    T kd = norm(cross(S.k, S.d)), slide = T(2) * abs(S.theta) * kd, rest = T(end) - T(s);
-    for (auto& b : P.b) {
-        auto w = b - shift;
-        T M = nk * (th2 * (norm(cross(S.k, w)) + rest * kd) + slide);
-        T h = root(dot(n, w) - c, -S.theta * dot(kn, w) - nd, M);
-        if (h < hA) hA = h;
+    const T rest = T(end) - T(s);
+    // Turning with one body (its support stays), past the points q of the other, about the centre of turning `centre`.
+    auto turning = [&](const Turn<T>& c, const Turn<T>& o, const Points<T>& q, vec<T> centre, vec<T> own, T sign, T fixed, T nk) {
+        const auto n1 = cross(n, c.k), n2 = cross(n, o.k);
+        const T kd = norm(cross(c.k, S.d)), tc = abs(c.theta), to = abs(o.theta);
+        T least(1e30);
+        for (auto& p : q) {
+            auto w = p - centre, r = p - own;
+            T spin = o.on ? norm(cross(o.k, r)) : T(0);
+            T M = nk * (square(tc) * (norm(cross(c.k, w)) + rest * (kd + to * spin)) + T(2) * tc * (kd + to * spin)) +
+                  nn * square(to) * spin;
+            T f1 = sign * (o.theta * dot(n2, r) - c.theta * dot(n1, w)) - nd;
+            T h = root(sign * dot(n, w) - fixed, f1, M);
+            if (h < least) least = h;
+        }
+        return least;
+    };
+    if (S.a.on) {
+        T fixed = dot(n, x[support(x, n)] - shift) + margin;
+        T h = turning(S.a, S.b, y, shift, S.dp, T(1), fixed, nka);
+        if (h > best) best = h, frame = 'A';
     }
-    if (hA > hW) {
-        frame = 'A';
-        return hA;
+    if (S.b.on) {
+        T fixed = margin - dot(n, y[support(y, -n)] - S.dp);
+        T h = turning(S.b, S.a, x, S.dp, shift, T(-1), fixed, nkb);
+        if (h > best) best = h, frame = 'B';
     }
-    return hW;
+    return best;
 }
 
 // A point strictly inside both, found on shrunk copies so that it keeps clear of both surfaces. Each copy shrinks towards an
@@ -245,11 +330,10 @@ March march(Placed<T>& P, double s, double end, double margin, double floor, dou
             std::vector<Segment>& out) {
     March m;
     m.t = s;
-    vec<T> guess = P.b[0] - P.at(s)[0];
+    vec<T> guess = P.b(s)[0] - P.a(s)[0];
     for (int step = 0; step < 2000 && !effort.spent(); ++step) {
-        effort.done += double(P.r.size() + P.b.size()) * (std::is_same_v<T, double> ? 1 : 20);
-        const auto& x = P.at(m.t);
-        auto g = gjk<T>(x, P.b, guess, P.reach, 1e-6);
+        effort.done += double(P.size()) * (std::is_same_v<T, double> ? 1 : 20);
+        auto g = gjk<T>(P.a(m.t), P.b(m.t), guess, P.reach, 1e-6);
         if (g.status != Status::Apart) return m;
         auto n = guess = g.v;
         double gap = double(norm(n));
@@ -265,7 +349,7 @@ March march(Placed<T>& P, double s, double end, double margin, double floor, dou
         char frame;
         double h = double(lasts(P, m.t, end, n, T(margin), frame));
         if (0.999 * h < least_step && m.t + h < end) return m;
-        auto own = frame == 'A' ? transposed(P.scene.turn(T(m.t)), n) : n;
+        auto own = frame == 'W' ? n : transposed((frame == 'A' ? P.scene.a : P.scene.b).at(T(m.t)), n);
         double e = m.t;
         for (double f : {8.0, 3.0, 1.4, 0.999, 0.7, 0.4, 0.15, 0.03}) {
             double to = std::min(end, m.t + f * h);

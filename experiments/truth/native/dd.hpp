@@ -137,6 +137,12 @@ vec<T> operator*(const mat<T>& m, vec<T> v) {
     return {dot(m.r[0], v), dot(m.r[1], v), dot(m.r[2], v)};
 }
 template <class T>
+mat<T> operator*(const mat<T>& m, const mat<T>& n) {
+    mat<T> out;
+    for (int i = 0; i < 3; ++i) out.r[i] = n.r[0] * m.r[i].x + n.r[1] * m.r[i].y + n.r[2] * m.r[i].z;
+    return out;
+}
+template <class T>
 mat<T> rotation(T w, T x, T y, T z) {
     T s = T(1) / (w * w + x * x + y * y + z * z), two = T(2) * s;
     return {{{(w * w + x * x - y * y - z * z) * s, (x * y - w * z) * two, (x * z + w * y) * two},

@@ -58,10 +58,11 @@ NB_MODULE(_native, m) {
                         return Solid(vertices_of(v), std::move(faces));
                     })
         .def_ro("order", &Solid::order);
-    nb::class_<Pair>(m, "Pair").def(
-        "__init__",
-        [](Pair* self, std::array<double, 4> qa, std::array<double, 3> pa, std::array<double, 4> qb, std::array<double, 3> pb,
-           std::array<double, 3> d, std::array<double, 3> k, double theta) { new (self) Pair{qa, qb, pa, pb, d, k, theta}; });
+    using Three = std::array<double, 3>;
+    nb::class_<Mover>(m, "Mover").def("__init__", [](Mover* self, std::array<double, 4> q, Three p, Three d, Three k, double theta,
+                                                     Three about) { new (self) Mover{q, p, d, k, theta, about}; });
+    nb::class_<Pair>(m, "Pair").def("__init__",
+                                    [](Pair* self, const Mover& a, const Mover& b) { new (self) Pair{a, b}; });
     m.def("instant", [](const Pair& pair, const Solid& A, const Solid& B, double t, double limit) {
         Prover prover(pair, A, B, limit);
         Instant i = prover.at(t);

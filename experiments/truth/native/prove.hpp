@@ -47,7 +47,7 @@ inline std::string digits(double x) {
 class Prover {
   public:
     Prover(const Pair& pair, const Solid& A, const Solid& B, double limit)
-        : A_(A), B_(B), sd_(pair), sq_(pair), theta_(pair.theta), ra_(A.nodes.size()), rb_(B.nodes.size()) {
+        : A_(A), B_(B), sd_(pair), sq_(pair), ra_(A.nodes.size()), rb_(B.nodes.size()) {
         effort_.limit = limit;
         blur_ = quick(0, 0).blur();
     }
@@ -167,48 +167,55 @@ class Prover {
         bool found = false;
     };
     struct Exact {  // one pair of tree nodes in double-double
-        Moving<dd> a;
-        Points<dd> b;
+        Moving<dd> a, b;
         Placed<dd> placed;
         Exact(const Prover& p, int na, int nb)
-            : a{turned(p.sq_, p.A_.nodes[na].v), {}},
-              b(truth::placed(p.sq_, p.B_.nodes[nb].v)),
+            : a{p.of_a<dd>(p.sq_, p.A_.nodes[na].v), {}},
+              b{p.of_b<dd>(p.sq_, p.B_.nodes[nb].v), {}},
               placed(p.sq_, a, b, p.reach(na, nb)) {}
     };
 
     const Solid &A_, &B_;
     Scene<double> sd_;
     Scene<dd> sq_;
-    double theta_, blur_;
-    mat<double> pose_;
+    double blur_;
+    mat<double> pose_a_, pose_b_;
     double posed_ = -1;
     int attempts_ = 0;  // pairs of elements in which a common point was sought and not found, at one instant
     Effort effort_;
-    std::vector<Moving<double>> ra_;
-    std::vector<Points<double>> rb_;
+    std::vector<Moving<double>> ra_, rb_;
 
     bool single() const { return A_.elements.size() == 1 && B_.elements.size() == 1; }
     std::string why(std::string otherwise) const {
         return effort_.spent() ? "the effort limit of " + std::to_string((long long)effort_.limit) + " vertex visits ran out"
                                : otherwise;
     }
-    double reach(int na, int nb) const { return A_.nodes[na].far + B_.nodes[nb].far + norm(sd_.dp) + norm(sd_.d); }
+    double reach(int na, int nb) const {
+        return A_.nodes[na].far + B_.nodes[nb].far + norm(sd_.about_a) + norm(sd_.about_b) + norm(sd_.dp) + norm(sd_.d);
+    }
     Placed<double> quick(int na, int nb) {
-        if (ra_[na].r.empty()) ra_[na].r = turned(sd_, A_.nodes[na].v);
-        if (rb_[nb].empty()) rb_[nb] = truth::placed(sd_, B_.nodes[nb].v);
+        if (ra_[na].r.empty()) ra_[na].r = of_a(sd_, A_.nodes[na].v);
+        if (rb_[nb].r.empty()) rb_[nb].r = of_b(sd_, B_.nodes[nb].v);
         return {sd_, ra_[na], rb_[nb], reach(na, nb)};
+    }
+    template <class T>
+    static Points<T> of_a(const Scene<T>& s, const Vertices& v) {
+        return turned(s.RA, s.about_a, v);
+    }
+    template <class T>
+    static Points<T> of_b(const Scene<T>& s, const Vertices& v) {
+        return turned(s.RB, s.about_b, v);
     }
     bool leaf_pair(int na, int nb) const { return A_.nodes[na].left < 0 && B_.nodes[nb].left < 0; }
 
     // The vertices of one pair of elements that lie near the contact, in double-double: a tenth of the work of all of them.
     struct Near {
         std::vector<int> ids_a, ids_b;
-        Moving<dd> a;
-        Points<dd> b;
+        Moving<dd> a, b;
         std::optional<Placed<dd>> placed;
         Near(Prover& p, int na, int nb, double t) {
             auto P = p.quick(na, nb);
-            const auto& x = P.at(t);
+            const auto &x = P.a(t), &y = P.b(t);
             auto shrunk = [](const Points<double>& q) {
                 vec<double> m;
                 for (auto& v : q) m = m + v;
@@ -217,11 +224,11 @@ class Prover {
                 for (auto& v : out) v = v + (m - v) * 1e-3;
                 return out;
             };
-            auto sa = shrunk(x), sb = shrunk(P.b);
+            auto sa = shrunk(x), sb = shrunk(y);
             auto g = gjk<double>(sa, sb, sb[0] - sa[0], P.reach, 1e-6);
             if (g.status != Status::Apart) return;
-            ids_a = ends(x, g.v), ids_b = ends(P.b, -g.v);
-            a.r = turned(p.sq_, pick(p.A_.nodes[na].v, ids_a)), b = truth::placed(p.sq_, pick(p.B_.nodes[nb].v, ids_b));
+            ids_a = ends(x, g.v), ids_b = ends(y, -g.v);
+            a.r = of_a(p.sq_, pick(p.A_.nodes[na].v, ids_a)), b.r = of_b(p.sq_, pick(p.B_.nodes[nb].v, ids_b));
             placed.emplace(p.sq_, a, b, P.reach);
         }
         static std::vector<int> ends(const Points<double>& p, vec<double> n) {  // near the support along n, and six all around
@@ -251,9 +258,8 @@ class Prover {
                 found.common.a[i] = near.ids_a[found.common.a[i]], found.common.b[i] = near.ids_b[found.common.b[i]];
         else {
             Exact e(*this, 0, 0);
-            const auto& x = e.placed.at(t);
             auto n = unwide(found.tree.nodes[0].segments[0].n);
-            double sure = double(dot(n, e.b[support(e.b, -n)]) - dot(n, x[support(x, n)])) / double(norm(n)) - e.placed.blur();
+            double sure = width(e.placed, t, n) / double(norm(n)) - e.placed.blur();
             if (!(sure > 32 * e.placed.blur())) return false;
             found.gap = claimed(sure);
         }
@@ -272,41 +278,43 @@ class Prover {
     }
     template <class T>
     bool settle(Placed<T>& P, double t, Instant& out) {  // one convex pair
-        const auto& x = P.at(t);
-        auto g = gjk<T>(x, P.b, P.b[0] - x[0], P.reach, 1e-9);
+        const auto &x = P.a(t), &y = P.b(t);
+        auto g = gjk<T>(x, y, y[0] - x[0], P.reach, 1e-9);
         if (g.status == Status::Apart) {
             double gap = double(norm(g.v));
             auto n = g.v * T(1 / gap);
             double trust = 32 * P.blur();
             if (!(gap > trust) || !leaf(P, t, t, 'W', n, T(0.5 * trust))) return false;
-            double sure = double(dot(n, P.b[support(P.b, -n)]) - dot(n, x[support(x, n)])) / double(norm(n)) - P.blur();
+            double sure = width(P, t, n) / double(norm(n)) - P.blur();
             out.label = "clear", out.gap = claimed(sure);
             out.tree.nodes.push_back({{{t, 'W', wide(n)}}});
             return true;
         }
-        auto w = inside<T>(x, P.b, P.reach);
+        auto w = inside<T>(x, y, P.reach);
         if (!w) return false;
         out.label = "hit", out.common = {w->point, 0, 0, w->a, w->b};
         return true;
+    }
+    template <class T>
+    static double width(Placed<T>& P, double t, vec<T> n) {  // |n| times the distance along n
+        const auto &x = P.a(t), &y = P.b(t);
+        return double(dot(n, y[support(y, -n)]) - dot(n, x[support(x, n)]));
     }
 
     // Lower bound on the distance of two groups: their bounding spheres, and the sphere of each against the box of the other.
     double sphere_gap(int na, int nb, double t) {
         if (t != posed_) {
-            auto T = sd_.turn(t);
-            vec<double> c[3] = {{sd_.RA.r[0].x, sd_.RA.r[1].x, sd_.RA.r[2].x},
-                                {sd_.RA.r[0].y, sd_.RA.r[1].y, sd_.RA.r[2].y},
-                                {sd_.RA.r[0].z, sd_.RA.r[1].z, sd_.RA.r[2].z}};
-            for (int i = 0; i < 3; ++i) pose_.r[i] = {dot(T.r[i], c[0]), dot(T.r[i], c[1]), dot(T.r[i], c[2])};
+            pose_a_ = sd_.a.at(t) * sd_.RA, pose_b_ = sd_.b.at(t) * sd_.RB;
             posed_ = t;
         }
         auto &a = A_.nodes[na], &b = B_.nodes[nb];
         auto shift = sd_.d * t;
-        vec<double> x = pose_ * vec<double>{a.centre[0], a.centre[1], a.centre[2]} + shift;
-        vec<double> y = sd_.RB * vec<double>{b.centre[0], b.centre[1], b.centre[2]} + sd_.dp;
+        vec<double> x = pose_a_ * (vector<double>(a.centre) - sd_.about_a) + shift;
+        vec<double> y = pose_b_ * (vector<double>(b.centre) - sd_.about_b) + sd_.dp;
         double spheres = norm(x - y) - a.radius - b.radius;
         double boxes =
-            std::max(outside(a, transposed(pose_, y - shift)) - b.radius, outside(b, transposed(sd_.RB, x - sd_.dp)) - a.radius);
+            std::max(outside(a, transposed(pose_a_, y - shift) + sd_.about_a) - b.radius,
+                     outside(b, transposed(pose_b_, x - sd_.dp) + sd_.about_b) - a.radius);
         return std::max(spheres, boxes);
     }
     bool split_a(int na, int nb) const {
@@ -317,13 +325,12 @@ class Prover {
     // The largest ball inside both, from a common point: away from the nearer surface to half way between the two, and some luck.
     double ball(double t, const Common& c) {
         vec<dd> x = unwide(c.point);
-        auto turn = sq_.turn(dd(t));
         vec<double> away_a, away_b;
+        const auto turn_a = sd_.a.at(t) * sd_.RA, turn_b = sd_.b.at(t) * sd_.RB;
         auto room = [&](vec<dd> y, double& ra, double& rb) {
             effort_.done += 200;
-            ra = A_.room(transposed(sq_.RA, transposed(turn, y - sq_.d * dd(t))), away_a);
-            rb = B_.room(transposed(sq_.RB, y - sq_.dp), away_b);
-            away_a = sd_.turn(t) * (sd_.RA * away_a), away_b = sd_.RB * away_b;
+            ra = A_.room(in_a(y, t), away_a), rb = B_.room(in_b(y, t), away_b);
+            away_a = turn_a * away_a, away_b = turn_b * away_b;
             return std::min(ra, rb);
         };
         unsigned long long seed = 11;
@@ -356,22 +363,22 @@ class Prover {
     void deepen(int na, int nb, double t, double& deepest) {
         if (effort_.spent() || 1e3 * blur_ - sphere_gap(na, nb, t) <= deepest) return;
         auto P = quick(na, nb);
-        const auto& x = P.at(t);
-        effort_.done += double(P.r.size() + P.b.size());
+        const auto &x = P.a(t), &y = P.b(t);
+        effort_.done += double(P.size());
         if (leaf_pair(na, nb)) {
-            double d = depth(x, P.b, P.reach, effort_);
+            double d = depth(x, y, P.reach, effort_);
             if (d < 1e-9 * P.reach) {
                 Near near(*this, na, nb, t);
-                if (near.placed) d = depth(near.placed->at(t), near.b, P.reach, effort_);
+                if (near.placed) d = depth(near.placed->a(t), near.placed->b(t), P.reach, effort_);
                 if (!(d > 0)) {
                     Exact e(*this, na, nb);
-                    d = depth(e.placed.at(t), e.b, P.reach, effort_);
+                    d = depth(e.placed.a(t), e.placed.b(t), P.reach, effort_);
                 }
             }
             deepest = std::max(deepest, d);
             return;
         }
-        if (gjk<double>(x, P.b, P.b[0] - x[0], P.reach, 1e-3).status == Status::Apart) return;
+        if (gjk<double>(x, y, y[0] - x[0], P.reach, 1e-3).status == Status::Apart) return;
         auto [c1, c2] = children(na, nb, t);
         deepen(c1.first, c1.second, t, deepest);
         deepen(c2.first, c2.second, t, deepest);
@@ -389,9 +396,9 @@ class Prover {
         double big = double(A_.nodes[na].v.size() + B_.nodes[nb].v.size());
         if (leaf_pair(na, nb) || (best < 1e300 && (big <= 48 || sphere_gap(na, nb, t) > 0))) {
             auto P = quick(na, nb);
-            effort_.done += double(P.r.size() + P.b.size());
-            const auto& x = P.at(t);
-            auto g = gjk<double>(x, P.b, P.b[0] - x[0], P.reach, 1e-6);
+            effort_.done += double(P.size());
+            const auto &x = P.a(t), &y = P.b(t);
+            auto g = gjk<double>(x, y, y[0] - x[0], P.reach, 1e-6);
             double d = g.status == Status::Apart ? norm(g.v) : 0;
             if (d >= best) return;
             if (leaf_pair(na, nb)) {
@@ -430,7 +437,7 @@ class Prover {
         bool instant = s >= c.until, last = leaf_pair(na, nb);
         double from = s;
         auto P = quick(na, nb);
-        bool done = !instant && theta_ == 0 && straight(P, s, c.until, margin, segments);
+        bool done = !instant && !sd_.turns() && straight(P, s, c.until, margin, segments);
         if (!done) {
             double floor = (last ? 1e4 : 64) * P.blur();
             March m = march(P, s, c.until, margin, floor, last ? 0 : 0.03 * (c.until - s), effort_, segments);
@@ -442,7 +449,7 @@ class Prover {
             Exact e(*this, na, nb);
             March m = march(e.placed, s, c.until, margin, 1e3 * e.placed.blur(), 0, effort_, segments);
             if (m.least < c.least) c.least = m.least, c.at = m.at;
-            if (theta_ == 0 && segments.size() > 1 && leaf(e.placed, from, m.t, 'W', unwide(segments.back().n), dd(margin)))
+            if (!sd_.turns() && segments.size() > 1 && leaf(e.placed, from, m.t, 'W', unwide(segments.back().n), dd(margin)))
                 segments = {segments.back()};
             if (!m.done) {
                 c.until = m.t;
@@ -467,11 +474,11 @@ class Prover {
     }
     // Translation: one plane for all of [s, end], if the swept hull of A's group is apart from B's.
     bool straight(Placed<double>& P, double s, double end, double margin, std::vector<Segment>& out) {
-        Points<double> both = P.at(s);
-        const auto& e = P.at(end);
+        Points<double> both = P.a(s);
+        const auto &e = P.a(end), &b = P.b(s);
         both.insert(both.end(), e.begin(), e.end());
-        effort_.done += double(both.size() + P.b.size());
-        auto g = gjk<double>(both, P.b, P.b[0] - both[0], P.reach, 1e-9);
+        effort_.done += double(both.size() + b.size());
+        auto g = gjk<double>(both, b, b[0] - both[0], P.reach, 1e-9);
         if (g.status != Status::Apart) return false;
         double gap = norm(g.v);
         if (!(gap > 64 * P.blur() + margin)) return false;
@@ -494,23 +501,23 @@ class Prover {
         if (attempts_++ > 48) return false;
         if (!A_.mesh && !B_.mesh) {
             auto P = quick(na, nb);
-            auto w = inside<double>(P.at(t), P.b, P.reach);
+            auto w = inside<double>(P.a(t), P.b(t), P.reach);
             if (!w) {
                 Exact e(*this, na, nb);
-                w = inside<dd>(e.placed.at(t), e.b, e.placed.reach);
+                w = inside<dd>(e.placed.a(t), e.placed.b(t), e.placed.reach);
             }
             if (!w) return false;
             out = {w->point, A_.order[A_.nodes[na].lo], B_.order[B_.nodes[nb].lo], w->a, w->b};
             return true;
         }
         Exact e(*this, na, nb);
-        const auto& x = e.placed.at(t);
+        const auto &x = e.placed.a(t), &b = e.placed.b(t);
         vec<dd> inward;
         if (A_.mesh) inward = inward - unit(cross(x[1] - x[0], x[2] - x[0]));
-        if (B_.mesh) inward = inward - unit(cross(e.b[1] - e.b[0], e.b[2] - e.b[0]));
+        if (B_.mesh) inward = inward - unit(cross(b[1] - b[0], b[2] - b[0]));
         if (!(norm(inward) > dd(1e-20))) return false;
         double reach = e.placed.reach;
-        for (auto& y : shared(na, nb, t, x, e.b, reach))
+        for (auto& y : shared(na, nb, t, x, b, reach))
             for (double depth = 0.03 * std::min(A_.size, B_.size); depth > 1e-27 * reach; depth *= 0.02) {
                 if (!holds(y + inward * dd(depth), t, out)) continue;
                 double inner = depth, outer = 50 * depth;  // half way through what both share: where the ball is to grow
@@ -531,7 +538,7 @@ class Prover {
     std::vector<vec<dd>> shared(int na, int nb, double t, const Points<dd>& A, const Points<dd>& B, double reach) {
         std::vector<vec<dd>> found;
         auto P = quick(na, nb);
-        for (auto& y : crossings<double>(P.at(t), P.b, reach, 1e-6)) found.push_back({dd(y.x), dd(y.y), dd(y.z)});
+        for (auto& y : crossings<double>(P.a(t), P.b(t), reach, 1e-6)) found.push_back({dd(y.x), dd(y.y), dd(y.z)});
         return found.empty() ? crossings<dd>(A, B, reach, 1e-25) : found;
     }
     template <class T>
@@ -569,7 +576,7 @@ class Prover {
 
     // Is x (relative to p_A, world axes) strictly inside both at time t? Fills `out` if so.
     bool holds(vec<dd> x, double t, Common& out) {
-        vec<dd> ya = transposed(sq_.RA, transposed(sq_.turn(dd(t)), x - sq_.d * dd(t))), yb = transposed(sq_.RB, x - sq_.dp);
+        vec<dd> ya = in_a(x, t), yb = in_b(x, t);
         Common c;
         c.point = wide(x);
         if (!within(A_, ya, c.piece_a, c.a) || !within(B_, yb, c.piece_b, c.b)) return false;
@@ -644,19 +651,26 @@ class Prover {
     // Is point y of side's body inside the other body? Where surfaces are apart, that tells of its whole part.
     bool sees(const Solid& other, int side, vec<dd> y, double t) {
         auto x = world(side, y, t);
-        vec<dd> there =
-            side ? transposed(sq_.RA, transposed(sq_.turn(dd(t)), x - sq_.d * dd(t))) : transposed(sq_.RB, x - sq_.dp);
+        vec<dd> there = side ? in_a(x, t) : in_b(x, t);
         int piece;
         std::array<int, 4> ids;
         return within(other, there, piece, ids);
     }
     vec<dd> world(int side, vec<dd> y, double t) const {
-        return side ? sq_.RB * y + sq_.dp : sq_.turn(dd(t)) * (sq_.RA * y) + sq_.d * dd(t);
+        return side ? sq_.b.at(dd(t)) * (sq_.RB * (y - sq_.about_b)) + sq_.dp
+                    : sq_.a.at(dd(t)) * (sq_.RA * (y - sq_.about_a)) + sq_.d * dd(t);
+    }
+    // A point of the scene at time t, in a body's frame.
+    vec<dd> in_a(vec<dd> x, double t) const {
+        return transposed(sq_.RA, transposed(sq_.a.at(dd(t)), x - sq_.d * dd(t))) + sq_.about_a;
+    }
+    vec<dd> in_b(vec<dd> x, double t) const {
+        return transposed(sq_.RB, transposed(sq_.b.at(dd(t)), x - sq_.dp)) + sq_.about_b;
     }
 
     // A clear sweep: prove it again with a margin close to the least distance, which the places where that fails help to find.
     void widen(Proof& p, const Cover& c) {
-        if (theta_ == 0 && single()) {
+        if (!sd_.turns() && single()) {
             if (!swept(quick(0, 0), p)) {
                 Exact e(*this, 0, 0);
                 swept(std::move(e.placed), p);
@@ -687,13 +701,13 @@ class Prover {
     }
     template <class T>
     bool swept(Placed<T> P, Proof& p) {  // translation of one element: the swept hull's distance and plane
-        Points<T> both = P.at(0);
-        const auto& e = P.at(1);
+        Points<T> both = P.a(0);
+        const auto &e = P.a(1), &b = P.b(0);
         both.insert(both.end(), e.begin(), e.end());
-        auto g = gjk<T>(both, P.b, P.b[0] - both[0], P.reach, 1e-9);
+        auto g = gjk<T>(both, b, b[0] - both[0], P.reach, 1e-9);
         if (g.status != Status::Apart) return false;
         auto n = g.v * (T(1) / norm(g.v));
-        double gap = double(dot(n, P.b[support(P.b, -n)]) - dot(n, both[support(both, n)])) - P.blur();
+        double gap = double(dot(n, b[support(b, -n)]) - dot(n, both[support(both, n)])) - P.blur();
         if (!(gap > 1e3 * P.blur())) return false;
         p.gap = claimed(gap);
         p.tree = {};
