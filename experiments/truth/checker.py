@@ -105,6 +105,7 @@ def obligations(pair, truth, c):
     """What has to be shown for a label; Refused where the certificate does not even claim it."""
     sweep = pair.query.question != "overlap"
     nan = truth.t_lo != truth.t_lo and truth.t_hi != truth.t_hi
+    require(truth.label == "clear" or not truth.touching, "only a clear label is tagged as touching")
     if truth.label == "uncertain":
         return
     if truth.label == "clear":
@@ -113,6 +114,10 @@ def obligations(pair, truth, c):
             "a clear label is clear at both ends, without times",
         )
         yield from clear(pair, c["clear"], 0.0, float(sweep), truth.gap if truth.gap > 0 else 0.0)
+        require(truth.touching == ("touching" in c), "the tag `touching` and its witness go together")
+        if truth.touching:
+            require(not truth.gap > 0, "bodies that touch are no distance apart")
+            touching(pair, c["touching"], sweep)
         return
     require(truth.label == "hit" and not truth.gap > 0, f"label {truth.label} with gap {truth.gap}")
     if not sweep:
@@ -312,12 +317,28 @@ def exact_time(pair, cert, t_lo, t_hi):
     A, B = (body.pieces[cert[key]["piece"]] for key, body in (("a", pair.a), ("b", pair.b)))
     apart_by = dot(n, dp) - support(B, transposed(RB, [-c for c in n]))[0] - support(A, transposed(RA, n))[0]
     require(dot(n, d) > 0 and apart_by == t * dot(n, d), "the plane does not touch both bodies at t*")
-    meeting = add(dp, d, -t)
-    for side, X, R, sign in ((cert["a"], A, RA, -1), (cert["b"], B, RB, 1)):
-        weights, ids = [number(w) for w in side["weights"]], side["vertices"]
-        require(
-            len(weights) == len(ids) and min(weights) >= 0 and sum(weights) == 1 and min(ids) >= 0, "the weights are not convex"
-        )
+    common_point(pair, cert, t)
+
+
+def touching(pair, cert, sweep):
+    """The closed bodies share a point at a rational time: at the start, or in a translation at any."""
+    t = number(cert["time"])
+    require(0 <= t <= int(sweep), "the time of touching lies outside the step")
+    require(not t or not (pair.theta_a or pair.theta_b), "bodies that turn are at rational places only at the start")
+    require("mesh" not in (pair.a.kind, pair.b.kind), "touching is a tag of convex pieces")
+    common_point(pair, cert, t)
+
+
+def common_point(pair, cert, t):
+    """Convex weights of vertices of one piece of each body give one and the same point at time t, exactly."""
+    X = pair.exact
+    meeting = add(X.dp, X.d, -t)
+    for side, body, R, about, sign in (
+        (cert["a"], pair.a, X.RA, X.about_a, -1),
+        (cert["b"], pair.b, X.RB, X.about_b, 1),
+    ):
+        weights, ids, piece = [number(w) for w in side["weights"]], side["vertices"], body.pieces[side["piece"]]
+        require(len(weights) == len(ids) and min(weights) >= 0 and sum(weights) == 1 and min(ids) >= 0, "the weights are not convex")
         for w, i in zip(weights, ids):
-            meeting = add(meeting, mul(R, vector(X.vertices[i])), sign * w)
-    require(not any(meeting), "the weights do not touch at t*")
+            meeting = add(meeting, mul(R, add(vector(piece.vertices[i]), about, -1)), sign * w)
+    require(not any(meeting), "the weights do not give one common point")

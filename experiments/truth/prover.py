@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from weakref import WeakKeyDictionary
 
 from ofg import Body, Motion, Pose, Query
 
 from . import _native
-from .balls import add, rational, vector
+from .balls import add, nearest_double, number, rational, vector
 from .exact import exact_time
 from .geometry import centre
 from .label import Truth
+from .touch import Plane, plane, witness
 
 EFFORT = 3e7  #: vertices visited per case before the prover gives up
+TOUCHING = 64  #: pairs of pieces of a case for which an exact plane is sought
 _solids: WeakKeyDictionary[Body, _native.Solid] = WeakKeyDictionary()
 
 
@@ -28,9 +31,30 @@ def prove(query: Query) -> Truth:
 def _prove(query: Query) -> Truth:
     a, b = _solid(query.a), _solid(query.b)
     pair = _native.Pair(_mover(query.pose_a, query.motion), _mover(query.pose_b, query.motion_b))
-    if query.question == "overlap":
-        return _overlap(query, _native.instant(pair, a, b, 0.0, EFFORT))
-    return _sweep(query, _native.sweep(pair, a, b, EFFORT))
+    pieces = query.a.kind != "mesh" and query.b.kind != "mesh"
+    planes = {}
+    while True:
+        seeds = {at: _native.Seed(number, p.end) for number, (at, p) in enumerate(planes.items())}
+        if query.question == "overlap":
+            found = _native.instant(pair, a, b, 0.0, EFFORT, seeds)
+        else:
+            found = _native.sweep(pair, a, b, EFFORT, seeds)
+        stuck = [at for at in found["stuck"] if at not in planes] if pieces and not found["spent"] else []
+        new = {at: p for at in stuck if (p := plane(query, *at)) is not None} if len(stuck) <= TOUCHING else {}
+        if found["label"] != "uncertain" or not new:
+            break
+        planes |= new
+    propose = _Proposal(query, list(planes.values()))
+    truth = propose.overlap(found) if query.question == "overlap" else propose.sweep(found)
+    return _tagged(query, truth, planes) if truth.label == "clear" and planes else truth
+
+
+def _tagged(query, truth, planes) -> Truth:
+    """With the tag and its witness, where one of the pairs that needed an exact plane does touch."""
+    for (i, j), p in planes.items():
+        if found := witness(query, i, j, p):
+            return replace(truth, touching=True, certificate={**truth.certificate, "touching": found})
+    return truth
 
 
 def _mover(pose: Pose, m: Motion) -> _native.Mover:
@@ -43,62 +67,71 @@ def uncertain(reason: str) -> Truth:
     return Truth("uncertain", reason=reason)
 
 
-def _overlap(query, found) -> Truth:
-    label = found["label"]
-    if label == "clear":
-        return Truth(
-            "clear", start="clear", end="clear", gap=found["gap"], certificate={"clear": _apart(query, found["tree"], 0.0)}
-        )
-    if label == "hit":
-        certificate = {"hit": _inside(query, found["common"], 0.0)}
-        return Truth("hit", start="hit", end="hit", gap=-found["depth"], certificate=certificate)
-    if found["spent"]:
-        return uncertain(f"the effort limit of {EFFORT:.0e} vertex visits ran out")
-    return uncertain("touching: neither planes nor a common interior point were found in 106 bits")
+class _Proposal:
+    """What the native search found, as a Truth with its certificate. planes: those that it was given, by number."""
 
+    def __init__(self, query: Query, planes: list[Plane]):
+        self.query, self.planes = query, planes
 
-def _sweep(query, found) -> Truth:
-    label, start = found["label"], found["start"]
-    if label == "uncertain":
-        return uncertain(found["reason"])
-    until = 1.0 if label == "clear" else found["t_lo"]
-    certificate = {"clear": _apart(query, found["tree"], until)} if start == "clear" else {}
-    if label == "clear":
-        return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate=certificate)
-    t_lo, t_hi, end = found["t_lo"], found["t_hi"], found["end"]
-    certificate["hit"] = _inside(query, found["common"], t_hi)
-    if start == "clear" and query.question == "translation" and query.a.kind == query.b.kind == "convex":
-        if exact := exact_time(query, 0, 0, found["tree"][0][-1][2][:3]):
-            certificate["exact"] = exact
-    if end["label"] == "clear":
-        certificate["end_clear"] = _apart(query, end["tree"], 1.0)
-    if end["label"] == "hit":
-        certificate["end_hit"] = _inside(query, end["common"], 1.0)
-    return Truth("hit", t_lo, t_hi, start, end["label"], -found["depth"], certificate=certificate)
+    def overlap(self, found) -> Truth:
+        label, query = found["label"], self.query
+        if label == "clear":
+            certificate = {"clear": self.apart(found["tree"], 0.0)}
+            return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate=certificate)
+        if label == "hit":
+            certificate = {"hit": _inside(query, found["common"], 0.0)}
+            return Truth("hit", start="hit", end="hit", gap=-found["depth"], certificate=certificate)
+        if found["spent"]:
+            return uncertain(f"the effort limit of {EFFORT:.0e} vertex visits ran out")
+        return uncertain("touching: neither planes nor a common interior point were found in 106 bits")
 
+    def sweep(self, found) -> Truth:
+        label, start, query = found["label"], found["start"], self.query
+        if label == "uncertain":
+            return uncertain(found["reason"])
+        until = 1.0 if label == "clear" else found["t_lo"]
+        certificate = {"clear": self.apart(found["tree"], until)} if start == "clear" else {}
+        if label == "clear":
+            return Truth("clear", start="clear", end="clear", gap=found["gap"], certificate=certificate)
+        t_lo, t_hi, end = found["t_lo"], found["t_hi"], found["end"]
+        certificate["hit"] = _inside(query, found["common"], t_hi)
+        if start == "clear" and query.question == "translation" and query.a.kind == query.b.kind == "convex":
+            near = [nearest_double(number(c)) for c in certificate["clear"]["tree"][0][-1][2:]]
+            if exact := exact_time(query, 0, 0, near):
+                certificate["exact"] = exact
+        if end["label"] == "clear":
+            certificate["end_clear"] = self.apart(end["tree"], 1.0)
+        if end["label"] == "hit":
+            certificate["end_hit"] = _inside(query, end["common"], 1.0)
+        return Truth("hit", t_lo, t_hi, start, end["label"], -found["depth"], certificate=certificate)
 
-def _apart(query, tree, end) -> dict:
-    apart = {"tree": _tree(tree, -1.0, end)}
-    for key, body in (("order_a", query.a), ("order_b", query.b)):
-        order = _solid(body).order
-        if len(order) > 1:
-            apart[key] = order
-    return apart
+    def apart(self, tree, end) -> dict:
+        apart = {"tree": self.tree(tree, -1.0, end)}
+        for key, body in (("order_a", self.query.a), ("order_b", self.query.b)):
+            order = _solid(body).order
+            if len(order) > 1:
+                apart[key] = order
+        return apart
 
+    def tree(self, node, start, end) -> list:
+        """The native tree, without what lies past the interval's end: it was proved before an earlier impact was found."""
+        segments, split = node
+        kept = []
+        for to, frame, n in segments:
+            if kept and start >= end:
+                break
+            kept.append([to, *self.plane(frame, n)])
+            start = to
+        if split is None or (kept and start >= end):
+            return [kept, None]
+        side, cut, left, right = split
+        return [kept, [side, [cut], [self.tree(left, start, end), self.tree(right, start, end)]]]
 
-def _tree(node, start, end) -> list:
-    """The native tree, without what lies past the interval's end: it was proved before an earlier impact was found."""
-    segments, split = node
-    kept = []
-    for to, frame, n in segments:
-        if kept and start >= end:
-            break
-        kept.append([to, frame, *_wide(n)])
-        start = to
-    if split is None or (kept and start >= end):
-        return [kept, None]
-    side, cut, left, right = split
-    return [kept, [side, [cut], [_tree(left, start, end), _tree(right, start, end)]]]
+    def plane(self, frame, n) -> list:
+        if frame != "S":
+            return [frame, *_wide(n)]
+        exact = self.planes[int(n[0])]
+        return [exact.frame, *(str(c) for c in exact.n)]
 
 
 def _wide(n) -> list:

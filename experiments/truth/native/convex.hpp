@@ -139,7 +139,7 @@ inline vec<dd> unwide(const Wide& w) { return {{w.hi[0], w.lo[0]}, {w.hi[1], w.l
 
 struct Segment {
     double end;
-    char frame;
+    char frame;  // 'W', 'A', 'B', or 'S': the plane of a seed, n.hi[0] its number
     Wide n;
 };
 

@@ -2,6 +2,8 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -63,19 +65,21 @@ NB_MODULE(_native, m) {
                                                      Three about) { new (self) Mover{q, p, d, k, theta, about}; });
     nb::class_<Pair>(m, "Pair").def("__init__",
                                     [](Pair* self, const Mover& a, const Mover& b) { new (self) Pair{a, b}; });
-    m.def("instant", [](const Pair& pair, const Solid& A, const Solid& B, double t, double limit) {
-        Prover prover(pair, A, B, limit);
+    nb::class_<Seed>(m, "Seed").def("__init__", [](Seed* self, int number, double end) { new (self) Seed{number, end}; });
+    m.def("instant", [](const Pair& pair, const Solid& A, const Solid& B, double t, double limit, const Seeds& seeds) {
+        Prover prover(pair, A, B, limit, seeds);
         Instant i = prover.at(t);
         auto out = pack(i);
         if (i.label == "hit") out["depth"] = prover.depth_at(t, i.common);
-        out["spent"] = prover.effort().spent();
+        out["spent"] = prover.effort().spent(), out["stuck"] = i.stuck;
         return out;
     });
-    m.def("sweep", [](const Pair& pair, const Solid& A, const Solid& B, double limit) {
-        Prover prover(pair, A, B, limit);
+    m.def("sweep", [](const Pair& pair, const Solid& A, const Solid& B, double limit, const Seeds& seeds) {
+        Prover prover(pair, A, B, limit, seeds);
         Proof p = prover.sweep();
         nb::dict out;
         out["label"] = p.label, out["reason"] = p.reason, out["start"] = p.start, out["effort"] = prover.effort().done;
+        out["stuck"] = p.stuck, out["spent"] = prover.effort().spent();
         out["t_lo"] = p.t_lo, out["t_hi"] = p.t_hi, out["gap"] = p.gap;
         if (p.label != "uncertain" && p.start == "clear") out["tree"] = pack(p.tree);
         if (p.label == "hit") out["common"] = pack(p.common), out["end"] = pack(p.end), out["depth"] = p.depth;

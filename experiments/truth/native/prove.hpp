@@ -1,6 +1,7 @@
 // What is proposed for two solids: at one instant, and over the step.
 #pragma once
 #include <cstdio>
+#include <map>
 #include <string>
 
 #include "depth.hpp"
@@ -23,9 +24,19 @@ struct Common {  // a point inside both at some time, relative to p_A; piece and
     std::array<int, 4> a{}, b{};
 };
 
+using Elements = std::pair<int, int>;  // an element of A and one of B
+
+// A plane that is known from elsewhere to keep two elements apart over [0, end], though they may touch.
+struct Seed {
+    int number;
+    double end;
+};
+using Seeds = std::map<Elements, Seed>;
+
 struct Instant {
     std::string label = "uncertain";
     double gap = 0;
+    std::vector<Elements> stuck;  // where uncertain: neither apart nor shown to share a point
     Tree tree;
     Common common;
 };
@@ -36,6 +47,7 @@ struct Proof {
     Tree tree;
     Common common;
     Instant end;
+    std::vector<Elements> stuck;
 };
 
 inline std::string digits(double x) {
@@ -46,8 +58,8 @@ inline std::string digits(double x) {
 
 class Prover {
   public:
-    Prover(const Pair& pair, const Solid& A, const Solid& B, double limit)
-        : A_(A), B_(B), sd_(pair), sq_(pair), ra_(A.nodes.size()), rb_(B.nodes.size()) {
+    Prover(const Pair& pair, const Solid& A, const Solid& B, double limit, Seeds seeds = {})
+        : A_(A), B_(B), seeds_(std::move(seeds)), sd_(pair), sq_(pair), ra_(A.nodes.size()), rb_(B.nodes.size()) {
         effort_.limit = limit;
         blur_ = quick(0, 0).blur();
     }
@@ -68,7 +80,7 @@ class Prover {
         if (single() && !A_.mesh && !B_.mesh) {
             if (!settle(quick(0, 0), t, out) && !settle_near(t, out)) {
                 Exact e(*this, 0, 0);
-                settle(e.placed, t, out);
+                if (!settle(e.placed, t, out)) untouched(t, out);
             }
             return out;
         }
@@ -95,6 +107,8 @@ class Prover {
             out.tree = std::move(c.tree);
         } else if (anywhere(t, out.common))
             out.label = "hit";
+        else
+            out.stuck = elements(c);
         return out;
     }
 
@@ -108,7 +122,7 @@ class Prover {
             return p;
         }
         if (start.label == "uncertain") {
-            p.reason = why("touching at the start");
+            p.reason = why("touching at the start"), p.stuck = start.stuck;
             return p;
         }
         Cover c = cover(0, 1, 0, nullptr);
@@ -125,7 +139,7 @@ class Prover {
         p.t_lo = c.until;
         for (double rel : {2e-13, 6e-13, 1e-11, 1e-9, 1e-6, 1e-4, 1e-2, 1.0}) {
             if (rel > 1e-6 && p.t_lo * rel > 1e-12) break;
-            p.t_hi = std::min(1.0, p.t_lo * (1 + rel));
+            p.t_hi = p.t_lo > 0 ? std::min(1.0, p.t_lo * (1 + rel)) : 1e-12 * rel;  // 0: they touch at the start
             if (!(p.t_hi > p.t_lo)) break;
             if (!meets_at(p.t_hi, c, p.common)) continue;
             p.label = "hit";
@@ -133,6 +147,7 @@ class Prover {
             return p;
         }
         p.reason = why("touching without overlap that could be certified, at t = " + digits(p.t_lo));
+        p.stuck = elements(c);
         return p;
     }
 
@@ -176,6 +191,7 @@ class Prover {
     };
 
     const Solid &A_, &B_;
+    const Seeds seeds_;
     Scene<double> sd_;
     Scene<dd> sq_;
     double blur_;
@@ -205,6 +221,26 @@ class Prover {
     template <class T>
     static Points<T> of_b(const Scene<T>& s, const Vertices& v) {
         return turned(s.RB, s.about_b, v);
+    }
+    Elements elements(int na, int nb) const { return {A_.order[A_.nodes[na].lo], B_.order[B_.nodes[nb].lo]}; }
+    std::vector<Elements> elements(const Cover& c) const {
+        std::vector<Elements> found;
+        for (auto& s : c.stuck) found.push_back(elements(s.a, s.b));
+        return found;
+    }
+    const Seed* seed(int na, int nb) const {
+        auto at = seeds_.empty() ? seeds_.end() : seeds_.find(elements(na, nb));
+        return at == seeds_.end() ? nullptr : &at->second;
+    }
+    static Segment planted(const Seed& s, double end) { return {end, 'S', wide(vec<double>{double(s.number), 0, 0})}; }
+    // Two single elements that touch at t, with a seed there; else they are stuck.
+    void untouched(double t, Instant& out) const {
+        auto s = seed(0, 0);
+        if (s && t <= s->end) {
+            out.label = "clear";
+            out.tree.nodes.push_back({{planted(*s, t)}});
+        } else
+            out.stuck = {elements(0, 0)};
     }
     bool leaf_pair(int na, int nb) const { return A_.nodes[na].left < 0 && B_.nodes[nb].left < 0; }
 
@@ -436,6 +472,15 @@ class Prover {
         std::vector<Segment> segments;
         bool instant = s >= c.until, last = leaf_pair(na, nb);
         double from = s;
+        if (auto sown = last && margin == 0 ? seed(na, nb) : nullptr; sown && s <= sown->end) {
+            const double to = instant ? s : sown->end;
+            segments.push_back(planted(*sown, to));
+            if (instant || to >= c.until) {
+                c.tree.nodes[id].segments = std::move(segments);
+                return id;
+            }
+            s = to;
+        }
         auto P = quick(na, nb);
         bool done = !instant && !sd_.turns() && straight(P, s, c.until, margin, segments);
         if (!done) {
@@ -449,7 +494,7 @@ class Prover {
             Exact e(*this, na, nb);
             March m = march(e.placed, s, c.until, margin, 1e3 * e.placed.blur(), 0, effort_, segments);
             if (m.least < c.least) c.least = m.least, c.at = m.at;
-            if (!sd_.turns() && segments.size() > 1 && leaf(e.placed, from, m.t, 'W', unwide(segments.back().n), dd(margin)))
+            if (!sd_.turns() && segments.size() > 1 && segments[0].frame != 'S' && leaf(e.placed, from, m.t, 'W', unwide(segments.back().n), dd(margin)))
                 segments = {segments.back()};
             if (!m.done) {
                 c.until = m.t;

@@ -1,0 +1,218 @@
+"""Planes and common points of convex pieces that touch, in rationals: what no rounded search can propose.
+
+Two pieces whose interiors are disjoint have a plane between them that passes through vertices of both. A linear program finds
+it roughly, the vertices that lie on it are read off, and the plane through exactly those is computed in rationals.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import flint
+import numpy as np
+from flint import fmpq, fmpq_mat
+from scipy.optimize import linprog
+
+from ofg import Query
+
+from .balls import BITS, add, cross, dot, mul, nearest_double, rational, vector
+from .checker import FRAMES, Apart, Refused, apart
+from .geometry import Pair
+
+ON_PLANE = (1e-13, 1e-10, 1e-7)  # of the size: how near a vertex is to the plane that is taken to lie on it
+SPANS = tuple(10.0**-k for k in range(10))  # of the step: how long a plane through touching pieces that turn is tried to hold
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A plane with normal n (rationals, from A to B) that keeps two pieces apart over [0, end], in frame "W", "A" or "B"."""
+
+    n: list
+    frame: str
+    end: float
+
+
+class Pieces:
+    """Piece i of A and piece j of B at t = 0, relative to A's point of turning: exact vertices, and doubles of them."""
+
+    def __init__(self, query: Query, i: int, j: int):
+        self.query, self.pair = query, Pair(query)
+        X, self.d = self.pair.exact, self.pair.exact.d
+        self.a, self.b = query.a.pieces[i], query.b.pieces[j]
+        self.A = [mul(X.RA, add(vector(v), X.about_a, -1)) for v in self.a.vertices]
+        self.B = [add(mul(X.RB, add(vector(v), X.about_b, -1)), X.dp) for v in self.b.vertices]
+        self.turns = bool(X.turn_a[1] or X.turn_b[1])
+
+    def swept(self) -> list:
+        """A's vertices at t = 0 and at t = 1, where nothing turns: the hull of what A sweeps, as seen from B."""
+        return self.A + [add(x, self.d) for x in self.A]
+
+
+def plane(query: Query, i: int, j: int) -> Plane | None:
+    """A plane between piece i of A and piece j of B, which touch or nearly do, over as much of the step as can be shown."""
+    with flint.ctx.workprec(BITS):
+        p = Pieces(query, i, j)
+        if p.turns:
+            return _turning(p)
+        if any(p.d):
+            if n := _between(p.swept(), p.B):
+                return Plane(n, "W", 1.0)
+        n = _between(p.A, p.B)
+        return n and Plane(n, "W", 0.0)
+
+
+def witness(query: Query, i: int, j: int, found: Plane) -> dict | None:
+    """A common point of two pieces that a plane of `plane` keeps apart: the certificate's `touching`. None where there is none."""
+    with flint.ctx.workprec(BITS):
+        p = Pieces(query, i, j)
+        swept = not p.turns and found.end > 0 and any(p.d)
+        X = p.swept() if swept else p.A
+        ids_a, ids_b = _on(X, found.n, max), _on(p.B, found.n, min)
+        if dot(found.n, X[ids_a[0]]) != dot(found.n, p.B[ids_b[0]]):
+            return None
+        weights = _meeting([X[k] for k in ids_a], [p.B[k] for k in ids_b])
+        if weights is None:
+            return None
+        wa, wb = weights
+        m = len(p.A)
+        time = sum((w for k, w in zip(ids_a, wa) if k >= m), fmpq(0))
+        return {
+            "time": str(time),
+            "a": _weights(i, [(k % m, w) for k, w in zip(ids_a, wa)]),
+            "b": _weights(j, list(zip(ids_b, wb))),
+        }
+
+
+def _weights(piece, pairs) -> dict:
+    total = {}
+    for k, w in pairs:
+        if w:
+            total[k] = total.get(k, fmpq(0)) + w
+    return {"piece": piece, "vertices": list(total), "weights": [str(w) for w in total.values()]}
+
+
+def _turning(p: Pieces) -> Plane | None:
+    at_rest = _between(p.A, p.B)
+    if at_rest is None:
+        return None
+    a, b = p.query.motion, p.query.motion_b
+    for end in SPANS:
+        later = [
+            pose.apply(body.vertices) - p.query.pose_a.position - end * b.displacement
+            for pose, body in ((a.pose_at(p.query.pose_a, end), p.a), (b.pose_at(p.query.pose_b, end), p.b))
+        ]
+        origin = p.query.pose_a.rotation @ np.array(p.pair.about_a)
+        n = _between(p.A, p.B, *(points - origin for points in later))
+        for frame in FRAMES if n else ():
+            try:
+                apart(Apart(p.pair, p.a.vertices, p.b.vertices, 0.0, end, frame, n, 0.0, True))
+                return Plane(n, frame, end)
+            except Refused:
+                pass
+    return Plane(at_rest, "W", 0.0)
+
+
+def _between(A: list, B: list, later_a=np.empty((0, 3)), later_b=np.empty((0, 3))) -> list | None:
+    """n with n.a <= n.b for all exact points, and about so for the later ones (doubles); None if none is found."""
+    a, b = (np.array([[nearest_double(c) for c in v] for v in side]) for side in (A, B))
+    rough = _rough(np.concatenate([a, later_a]), np.concatenate([b, later_b]))
+    if rough is None:
+        return None
+    size = np.ptp(np.concatenate([a, b]), axis=0).max()
+    tops, lows = a @ rough, b @ rough
+    for tolerance in ON_PLANE:
+        on_a = [A[k] for k in np.flatnonzero(tops >= tops.max() - tolerance * size)]
+        on_b = [B[k] for k in np.flatnonzero(lows <= lows.min() + tolerance * size)]
+        touching = lows.min() - tops.max() <= tolerance * size
+        n = _through(rough, on_a, on_b, touching)
+        if n is not None and max(dot(n, x) for x in A) <= min(dot(n, y) for y in B):
+            return n
+    return None
+
+
+def _rough(a: np.ndarray, b: np.ndarray) -> np.ndarray | None:
+    """The widest separating plane's normal, in doubles; where planes through touching points are many, one amid them."""
+    centre, size = a.mean(axis=0), np.ptp(np.concatenate([a, b]), axis=0).max()
+    a, b = (a - centre) / size, (b - centre) / size
+    # Variables n, offset o, gap g: n.b - o >= g and o - n.a >= g. One component of n is 1 or -1, so that n is not 0.
+    rows = np.concatenate([np.c_[-b, np.ones(len(b)), np.ones(len(b))], np.c_[a, -np.ones(len(a)), np.ones(len(a))]])
+    found = []
+    for k in range(3):
+        for side in (-1.0, 1.0):
+            bounds = [(side, side) if c == k else (-1, 1) for c in range(3)] + [(None, None)] * 2
+            r = linprog([0, 0, 0, 0, -1], A_ub=rows, b_ub=np.zeros(len(rows)), bounds=bounds, method="highs")
+            if r.status == 0:
+                found.append((r.x[4], r.x[:3]))
+    best = max((g for g, _ in found), default=-1.0)
+    if best < -1e-6:
+        return None
+    return np.sum([n / np.linalg.norm(n) for g, n in found if g > best - 1e-9], axis=0)
+
+
+def _through(rough: np.ndarray, on_a: list, on_b: list, touching: bool) -> list | None:
+    """The exact normal nearest to `rough` of a plane through the points of A and parallel through those of B; one if touching."""
+    directions = [add(x, on_a[0], -1) for x in on_a[1:]] + [add(y, on_b[0], -1) for y in on_b[1:]]
+    if touching:
+        directions.append(add(on_b[0], on_a[0], -1))
+    basis = []
+    n = [rational(c) for c in rough]
+    for u in directions:
+        if not any(u):
+            continue
+        if not basis:
+            basis.append(u)
+        elif len(basis) == 1:
+            if any(cross(basis[0], u)):
+                basis.append(u)
+        elif dot(cross(*basis), u):
+            return None
+    if len(basis) == 1:
+        u = basis[0]
+        n = add(n, u, -dot(n, u) / dot(u, u))
+    if len(basis) == 2:
+        across = cross(*basis)
+        n = across if dot(across, n) > 0 else [-c for c in across]
+    return n if any(n) else None
+
+
+def _on(points: list, n: list, extreme) -> list[int]:
+    keys = [dot(n, x) for x in points]
+    return [k for k, key in enumerate(keys) if key == extreme(keys)]
+
+
+def _meeting(A: list, B: list) -> tuple[list, list] | None:
+    """Exact convex weights of a common point of two hulls in one plane: a vertex of the linear program, solved in rationals."""
+    rows = [[*(x[c] for x in A), *(-y[c] for y in B), fmpq(0)] for c in range(3)]
+    rows += [[fmpq(1)] * len(A) + [fmpq(0)] * len(B) + [fmpq(1)], [fmpq(0)] * len(A) + [fmpq(1)] * len(B) + [fmpq(1)]]
+    # Relative to a point of A and in units of the size, or the solver's tolerance would be one of length.
+    a, b = (np.array([[nearest_double(c) for c in add(x, A[0], -1)] for x in side]) for side in (A, B))
+    size = max(np.abs(a).max(), np.abs(b).max()) or 1.0
+    equal = np.zeros((5, len(A) + len(B)))
+    equal[:3] = np.concatenate([a, -b]).T / size
+    equal[3, : len(A)] = equal[4, len(A) :] = 1
+    rng = np.random.default_rng(0)
+    for _ in range(4):
+        r = linprog(rng.uniform(size=equal.shape[1]), A_eq=equal, b_eq=[0, 0, 0, 1, 1], method="highs-ds")
+        if r.status != 0:
+            return None
+        used = np.flatnonzero(r.x > 1e-12)
+        exact = _solved([[row[k] for k in used] + [row[-1]] for row in rows])
+        if exact is not None and min(exact) >= 0:
+            weights = [fmpq(0)] * equal.shape[1]
+            for k, w in zip(used, exact):
+                weights[k] = w
+            return weights[: len(A)], weights[len(A) :]
+    return None
+
+
+def _solved(rows: list) -> list | None:
+    """A solution of the linear equations [matrix | right side]; free unknowns are 0. None if there is none."""
+    reduced, rank = fmpq_mat(rows).rref()
+    unknowns = len(rows[0]) - 1
+    solution = [fmpq(0)] * unknowns
+    for i in range(rank):
+        pivot = next((k for k in range(unknowns + 1) if reduced[i, k] != 0))
+        if pivot == unknowns:
+            return None
+        solution[pivot] = reduced[i, unknowns]
+    return solution
