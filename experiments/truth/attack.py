@@ -20,6 +20,7 @@ import numpy as np
 from experiments import scenarios
 
 from . import check_many, label_many
+from .checker import FRAMES
 
 FALSE, WEAKER = "must be refused", "refused unless redundant"
 
@@ -34,6 +35,14 @@ def mutations(rng, query, truth):
     times = {"t_lo": nan, "t_hi": nan} if flipped == "clear" or query.question == "overlap" else {"t_lo": 0.0, "t_hi": 0.0}
     yield "label flipped", FALSE, replace(truth, label=flipped, start=flipped, end=flipped, gap=0.0, **times)
     yield "certificate dropped", FALSE, replace(truth, certificate={})
+    if not truth.touching:
+        yield "touching without a witness", FALSE, replace(truth, touching=True)
+    if "touching" in c:
+        yield "witness without its tag", FALSE, replace(truth, touching=False)
+        for side in "ab":
+            moved = copy.deepcopy(c["touching"])
+            moved[side]["weights"][0] = str(Fraction(moved[side]["weights"][0]) + Fraction(1, 10**30))
+            yield "touching weights off by 1e-30", FALSE, replace(truth, certificate={**c, "touching": moved})
     if truth.gap > 0:
         yield "gap times 20", FALSE, replace(truth, gap=truth.gap * 20)  # the prover claims a tenth of the distance or more
     if truth.label == "hit" and query.question != "overlap" and truth.start == "clear":
@@ -133,7 +142,7 @@ def _drop_segment(rng, tree):
 def _reframe(rng, tree):
     segments = _some(rng, tree, 0)[0]
     s = segments[rng.integers(len(segments))]
-    s[1] = "A" if s[1] == "W" else "W"
+    s[1] = rng.choice([frame for frame in FRAMES if frame != s[1]])
 
 
 def _drop_child(rng, tree):

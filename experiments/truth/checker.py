@@ -199,7 +199,7 @@ def apart(o, vertices=None, near=None):
     supports = (P if near is None else P[near]).tolist()
     Q = [vector(v) for v in (Q if vertices is None else Q[vertices]).tolist()]
     ends = [_end(o, n, t, supports, on_b) for t in times]
-    bound = _bend(o, n, times, P.tolist(), on_b) if times[1] > times[0] and (X.turn_a[1] or X.turn_b[1]) else lambda v: 0
+    bound = _bend(o, n, times, P.tolist(), on_b) if times[1] > times[0] and (X.turn_a.theta or X.turn_b.theta) else lambda v: 0
     half = (times[1] - times[0]) ** 2 / 2
     for v in Q:
         f = [dot(line, v) + offset for line, offset in ends]
@@ -225,12 +225,11 @@ def _end(o, n, t, P, on_b):
 
 def _bend(o, n, times, P, on_b):
     """The bound M on |f''| over the interval, as a function of a vertex of Q. README.md derives it."""
-    X, pair = o.pair.exact, o.pair
-    (RP, cP, (kP, wP)), (RQ, cQ, (kQ, wQ)) = (X.RA, X.about_a, X.turn_a), (X.RB, X.about_b, X.turn_b)
-    turn_q = pair.turn_b
+    X, turns = o.pair.exact, o.pair.turn_b if on_b else o.pair.turn_a
+    (RP, cP, by_p), (RQ, cQ, by_q) = (X.RA, X.about_a, X.turn_a), (X.RB, X.about_b, X.turn_b)
     if not on_b:
-        (RP, cP, (kP, wP)), (RQ, cQ, (kQ, wQ)), turn_q = (RQ, cQ, (kQ, wQ)), (RP, cP, (kP, wP)), pair.turn_a
-    wP, wQ, h = abs(wP), abs(wQ), times[1] - times[0]
+        (RP, cP, by_p), (RQ, cQ, by_q) = (RQ, cQ, by_q), (RP, cP, by_p)
+    kP, kQ, wP, wQ, h = by_p.k, by_q.k, abs(by_p.theta), abs(by_q.theta), times[1] - times[0]
     axis = transposed(RQ, kQ)
 
     def spin(v):
@@ -238,13 +237,13 @@ def _bend(o, n, times, P, on_b):
 
     if o.frame == "W":
         reach = greatest([norm(cross(transposed(RP, kP), add(vector(p), cP, -1))) for p in P]) if wP else 0
-        fixed = wP**2 * norm(cross(n, kP)) * reach
-        bend = wQ**2 * norm(cross(n, kQ))
+        fixed = wP**2 * by_p.across(n) * reach
+        bend = wQ**2 * by_q.across(n)
         return lambda v: bend * spin(v) + fixed
     sign = 1 if on_b else -1
-    k = transposed(RQ, turn_q(-times[0], kP))
-    arms = [transposed(RQ, turn_q(-times[0], [sign * c for c in add(X.dp, X.d, -t)])) for t in times]
-    slide, across, length = norm(cross(kP, X.d)), norm(cross(n, kP)), norm(n)
+    k = transposed(RQ, turns(-times[0], kP))
+    arms = [transposed(RQ, turns(-times[0], [sign * c for c in add(X.dp, X.d, -t)])) for t in times]
+    slide, across, length = by_p.across(X.d), by_p.across(n), norm(n)
 
     def bound(v):
         r, own = add(v, cQ, -1), spin(v)

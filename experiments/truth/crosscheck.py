@@ -56,13 +56,12 @@ def compile_judge(folder: Path) -> Path | None:
     return program
 
 
-def rational_turn(query, t):
+def rational_turn(motion, t):
     """Rational rotation matrix within about 1e-60 of Rot(k/|k|, theta t), exactly orthogonal: from a rational quaternion."""
-    m = query.motion
     with flint.ctx.workprec(300):
-        k = [arb(c) for c in vector(m.axis)]
+        k = [arb(c) for c in vector(motion.axis)]
         length = sum((c * c for c in k), arb(0)).sqrt()
-        s, c = (arb(rational(m.angle) * t) / 2).sin_cos()
+        s, c = (arb(rational(motion.angle) * t) / 2).sin_cos()
         q = [c] + [s * x / length for x in k]
         scale = 2**220
         return rotation(*[fmpq(int((x * scale).mid().floor().unique_fmpz() or 0)) for x in q])
@@ -70,18 +69,22 @@ def rational_turn(query, t):
 
 def instant(query, t) -> str:
     """One case for the judge: both bodies at time t (a rational)."""
-    RA, RB = (rotation(*map(rational, p.quaternion)) for p in (query.pose_a, query.pose_b))
-    turn = rational_turn(query, t) if query.motion.angle and t else None
-    shift = add(vector(query.pose_a.position), vector(query.motion.displacement), t)
+    sides = (query.a, query.pose_a, query.motion), (query.b, query.pose_b, query.motion_b)
+    return f"case {' '.join(_solid(body, _placed(pose, motion, t)) for body, pose, motion in sides)}\n"
 
-    def place_a(v):
-        v = mul(RA, vector(v))
-        return add(mul(turn, v) if turn else v, shift)
 
-    def place_b(v):
-        return add(mul(RB, vector(v)), vector(query.pose_b.position))
+def _placed(pose, motion, t):
+    """Where a vertex is at time t, in rationals."""
+    R, turns = rotation(*map(rational, pose.quaternion)), bool(motion.angle and t)
+    turn, about = rational_turn(motion, t) if turns else None, vector(motion.about)
+    shift = add(vector(pose.position), vector(motion.displacement), t)
 
-    return f"case {_solid(query.a, place_a)} {_solid(query.b, place_b)}\n"
+    def place(v):
+        if not turns:
+            return add(mul(R, vector(v)), shift)
+        return add(add(mul(turn, mul(R, add(vector(v), about, -1))), mul(R, about)), shift)
+
+    return place
 
 
 def _solid(body, place) -> str:
@@ -93,8 +96,10 @@ def _solid(body, place) -> str:
     return f"C {len(body.pieces)} " + " ".join(points(p.vertices) for p in body.pieces)
 
 
-def claims(query, truth):
-    """(time, meets?, what) that follow from a label and that closed sets can decide."""
+def claims(query, truth, dense=0):
+    """(time, meets?, what) that follow from a label and that closed sets can decide; at `dense` more instants of a sweep."""
+    if truth.touching:
+        return []  # the judge's sets are closed: they meet where these touch
     early, late = fmpq(10**9 - 1, 10**9), fmpq(10**9 + 1, 10**9)
     if query.question == "overlap":
         return [(fmpq(0), truth.label == "hit", "overlap")]
@@ -104,11 +109,12 @@ def claims(query, truth):
         if name != "uncertain"
     ]
     if truth.label == "clear":
-        return found + [(fmpq(i, 7), False, f"clear at {i}/7") for i in range(1, 7)]
+        return found + [(fmpq(i, dense + 7), False, f"clear at {i}/{dense + 7}") for i in range(1, dense + 7)]
     if truth.start == "clear":
         lo, hi = rational(truth.t_lo), rational(truth.t_hi)
         found += [(lo * fmpq(1, 2), False, "half way"), (lo * early, False, "before the bracket")]
-        if not query.motion.angle:
+        found += [(lo * fmpq(i, dense + 1), False, "before the bracket") for i in range(1, dense + 1)]
+        if not (query.motion.angle or query.motion_b.angle):
             found += [(hi, True, "end of the bracket"), (lo, False, "start of the bracket")]
             if exact := truth.certificate.get("exact"):
                 p, _, q = exact["time"].partition("/")
@@ -122,8 +128,8 @@ def claims(query, truth):
     return found
 
 
-def against_cgal(program, labelled, budget: int) -> list[str]:
-    """Disagreements with the exact kernel; `budget` bounds the work by triangles of an instant."""
+def against_cgal(program, labelled, budget: int, dense: int = 0) -> list[str]:
+    """Disagreements with the exact kernel; `budget` bounds the work by triangles of an instant; dense: see `claims`."""
     asked, text = [], []
     skipped = 0
     for name, query, truth in labelled:
@@ -132,7 +138,7 @@ def against_cgal(program, labelled, budget: int) -> list[str]:
         if len(query.a.faces) + len(query.b.faces) > budget:
             skipped += 1
             continue
-        for t, meets, what in claims(query, truth):
+        for t, meets, what in claims(query, truth, dense):
             asked.append((name, meets, what))
             text.append(instant(query, t))
     answers = subprocess.run([program], input="".join(text), capture_output=True, text=True).stdout.split()
@@ -164,11 +170,11 @@ def against_engine(labelled) -> list[str]:
             fcl.CollisionObject(fcl.Convex(x.vertices, len(x.faces), np.hstack([np.full((len(x.faces), 1), 3), x.faces]).ravel()))
             for x in (query.a, query.b)
         )
-        b.setTransform(fcl.Transform(query.pose_b.rotation, query.pose_b.position))
         met = []
         for t in np.linspace(0, 1, SAMPLES):
-            pose = query.motion.pose_at(query.pose_a, t)
-            a.setTransform(fcl.Transform(pose.rotation, pose.position))
+            for body, start, motion in ((a, query.pose_a, query.motion), (b, query.pose_b, query.motion_b)):
+                pose = motion.pose_at(start, t)
+                body.setTransform(fcl.Transform(pose.rotation, pose.position))
             met.append(fcl.collide(a, b, fcl.CollisionRequest(), fcl.CollisionResult()) > 0)
         times = np.linspace(0, 1, SAMPLES)[met]
         sampled += 1
@@ -184,21 +190,35 @@ def against_engine(labelled) -> list[str]:
     return wrong
 
 
+def against_itself(labelled) -> list[str]:
+    """Labels that change when A and B are exchanged."""
+    wrong = []
+    for (name, _, truth), other in zip(labelled, label_many(q.swapped() for _, q, _ in labelled)):
+        said = [(t.label, t.start, t.touching) for t in (truth, other)]
+        apart = truth.label == other.label == "hit" and not (truth.t_lo <= other.t_hi and other.t_lo <= truth.t_hi)
+        if said[0] != said[1] or apart:
+            wrong.append(f"swapped {name}: {said[0]} at {truth.t_lo:.17g} became {said[1]} at {other.t_lo:.17g}")
+    print(f"swapped: {len(labelled)} labels asked again with A and B exchanged, {len(wrong)} changed")
+    return wrong
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cases", type=int, default=4, help="cases per level of every scenario")
     parser.add_argument("--seed", type=int, default=77)
     parser.add_argument("--faces", type=int, default=1500, help="largest number of faces of both bodies that CGAL is asked about")
+    parser.add_argument("--dense", type=int, default=0, help="instants of every sweep at which CGAL is asked besides the usual ones")
+    parser.add_argument("--scenarios", nargs="+", help="these families only")
     args = parser.parse_args()
     labelled = []
-    for scenario in scenarios.scenarios().values():
+    for scenario in map(scenarios.get, args.scenarios or scenarios.scenarios()):
         cases = [scenario.case(args.seed, level, i) for level in scenario.levels for i in range(args.cases)]
         labelled += [(c.id, c.query, t) for c, t in zip(cases, label_many(c.query for c in cases))]
     print(f"{len(labelled)} labels: {dict(Counter(t.label for _, _, t in labelled))}")
     with tempfile.TemporaryDirectory() as folder:
         program = compile_judge(Path(folder))
-        wrong = against_cgal(program, labelled, args.faces) if program else []
-    wrong += against_engine(labelled)
+        wrong = against_cgal(program, labelled, args.faces, args.dense) if program else []
+    wrong += against_engine(labelled) + against_itself(labelled)
     print("\n".join(wrong) or "no disagreement")
     raise SystemExit(len(wrong) > 0)
 

@@ -56,26 +56,49 @@ class Pair:
         RA, RB = (rotation(*map(rational, p.quaternion)) for p in (q.pose_a, q.pose_b))
         dp = add(centre(q.pose_b, q.motion_b), centre(q.pose_a, q.motion), -1)
         d = add(vector(q.motion.displacement), vector(q.motion_b.displacement), -1)
-        turns = [(_axis(m), rational(m.angle)) for m in (q.motion, q.motion_b)]
+        turns = [Turn(_axis(m), rational(m.angle), vector(m.axis)) for m in (q.motion, q.motion_b)]
         return Exact(RA, RB, dp, d, *turns, vector(self.about_a), vector(self.about_b))
 
     def turn_a(self, t, v):
         """Rot(k_A, theta_A t) v in balls; v itself where nothing turns, so that rationals stay rational."""
-        return _turned(*self.exact.turn_a, t, v)
+        return self.exact.turn_a.by(t, v)
 
     def turn_b(self, t, v):
-        return _turned(*self.exact.turn_b, t, v)
+        return self.exact.turn_b.by(t, v)
+
+
+class Turn(NamedTuple):
+    """k: the unit axis (balls, or 0 where nothing turns). theta: the angle over the step. axis: as it is given, in rationals."""
+
+    k: list
+    theta: fmpq
+    axis: list
+
+    def by(self, t, v):
+        """Rot(k, theta t) v in balls; v itself where it does not turn, so that rationals stay rational."""
+        if not self.theta or not t or not any(self._off_axis(v)):
+            return v
+        s, c = arb(self.theta * t).sin_cos()
+        return add(add([c * x for x in v], cross(self.k, v), s), self.k, (1 - c) * dot(self.k, v))
+
+    def across(self, v):
+        """|v x k|: 0 and no ball where v is along the axis."""
+        off = self._off_axis(v)
+        return norm(off) / norm(self.axis) if self.theta and any(off) else 0
+
+    def _off_axis(self, v) -> list:
+        return cross(v, self.axis) if all(isinstance(c, fmpq) for c in v) else v
 
 
 class Exact(NamedTuple):
-    """RA, RB: rows of the rotations at the start. dp, d: see Pair. turn_a, turn_b: unit axis and angle. about: points of turning."""
+    """RA, RB: rows of the rotations at the start. dp, d: see Pair. about: points of turning. All but turns.k in rationals."""
 
     RA: list
     RB: list
     dp: list
     d: list
-    turn_a: tuple
-    turn_b: tuple
+    turn_a: Turn
+    turn_b: Turn
     about_a: list
     about_b: list
 
@@ -97,13 +120,6 @@ def _axis(motion) -> list:
 def _scaled(axis):
     top = max(map(abs, axis)) or 1.0
     return [c / top for c in axis]
-
-
-def _turned(k, theta, t, v):
-    if not theta or not t:
-        return v
-    s, c = arb(theta * t).sin_cos()
-    return add(add([c * x for x in v], cross(k, v), s), k, (1 - c) * dot(k, v))
 
 
 class points:

@@ -41,7 +41,7 @@ class Pieces:
         self.a, self.b = query.a.pieces[i], query.b.pieces[j]
         self.A = [mul(X.RA, add(vector(v), X.about_a, -1)) for v in self.a.vertices]
         self.B = [add(mul(X.RB, add(vector(v), X.about_b, -1)), X.dp) for v in self.b.vertices]
-        self.turns = bool(X.turn_a[1] or X.turn_b[1])
+        self.turns = bool(X.turn_a.theta or X.turn_b.theta)
 
     def swept(self) -> list:
         """A's vertices at t = 0 and at t = 1, where nothing turns: the hull of what A sweeps, as seen from B."""

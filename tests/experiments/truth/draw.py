@@ -34,9 +34,15 @@ def convex_query(rng, question: str, a: Body | None = None, b: Body | None = Non
     return Query(question, a, b, pose_a, pose_b, motion)
 
 
-def swapped(q: Query) -> Query:
-    """The same overlap or translation with the bodies' roles exchanged: B moves by -d towards A."""
-    return Query(q.question, q.b, q.a, q.pose_b, q.pose_a, Motion(-q.motion.displacement))
+def two_movers(rng) -> Query:
+    """Both bodies translate and turn, about any of their points; about three in four of them meet."""
+    q = convex_query(rng, "motion")
+
+    def motion(displacement):
+        about = single(0.3 * rng.normal(size=3)) if rng.random() < 0.3 else np.zeros(3)
+        return Motion(displacement, single(rng.normal(size=3)), float(single(rng.uniform(-6, 6))), about)
+
+    return replace(q, motion=motion(q.motion.displacement), motion_b=motion(single(0.5 * rng.normal(size=3))))
 
 
 def moved_together(q: Query, half_turn: int) -> Query:
@@ -52,8 +58,8 @@ def moved_together(q: Query, half_turn: int) -> Query:
         u = h[1:]
         return Pose(np.concatenate([[-u @ v], w * u + np.cross(u, v)]), flip * pose.position + shift)
 
-    m = q.motion
-    return replace(q, pose_a=move(q.pose_a), pose_b=move(q.pose_b), motion=Motion(flip * m.displacement, flip * m.axis, m.angle))
+    motions = [Motion(flip * m.displacement, flip * m.axis, m.angle, m.about) for m in (q.motion, q.motion_b)]
+    return replace(q, pose_a=move(q.pose_a), pose_b=move(q.pose_b), motion=motions[0], motion_b=motions[1])
 
 
 def scaled(q: Query, power: int) -> Query:
@@ -61,14 +67,15 @@ def scaled(q: Query, power: int) -> Query:
     f = 2.0**power
     a, b = (Body._of("convex", x.vertices * f, x.faces, (), x.name) for x in (q.a, q.b))
     pose_a, pose_b = (Pose(p.quaternion, p.position * f) for p in (q.pose_a, q.pose_b))
-    return Query(q.question, a, b, pose_a, pose_b, Motion(q.motion.displacement * f, q.motion.axis, q.motion.angle))
+    motions = [Motion(m.displacement * f, m.axis, m.angle, m.about * f) for m in (q.motion, q.motion_b)]
+    return Query(q.question, a, b, pose_a, pose_b, *motions)
 
 
 def reversed_in_time(q: Query) -> Query:
     """The motion run backwards from its end pose (rounded to double where it turns)."""
-    m = q.motion
-    end = m.pose_at(q.pose_a, 1.0)
-    return replace(q, pose_a=Pose(end.quaternion, end.position), motion=Motion(-m.displacement, m.axis, -m.angle))
+    motions = [Motion(-m.displacement, m.axis, -m.angle, m.about) for m in (q.motion, q.motion_b)]
+    ends = q.motion.pose_at(q.pose_a, 1.0), q.motion_b.pose_at(q.pose_b, 1.0)
+    return replace(q, pose_a=ends[0], pose_b=ends[1], motion=motions[0], motion_b=motions[1])
 
 
 def composite_query(rng, question: str) -> Query:

@@ -9,7 +9,7 @@ import trimesh
 from experiments.truth import check, label
 from ofg import Body, Motion, Pose, Query
 
-from .draw import composite_query, convex_query, moved_together, reversed_in_time, scaled, swapped
+from .draw import composite_query, convex_query, moved_together, reversed_in_time, scaled
 
 QUESTIONS = ("overlap", "translation", "motion")
 CUBE = Body.from_trimesh(trimesh.creation.box((2, 2, 2)), "cube")
@@ -49,14 +49,14 @@ def test_common_motion_and_scaling_change_no_verdict(question):
                 assert np.isclose(again.gap, truth.gap * f, rtol=1e-6)
 
 
-@pytest.mark.parametrize("question", ("overlap", "translation"))
+@pytest.mark.parametrize("question", QUESTIONS)
 def test_swapping_the_bodies_changes_no_verdict(question):
     rng = np.random.default_rng(3)
     for _ in range(40):
         query = convex_query(rng, question)
-        one, two = label(query), label(swapped(query))
+        one, two = label(query), label(query.swapped())
         assert (one.label, one.start, one.end) == (two.label, two.start, two.end)
-        if one.label == "hit" and question == "translation":
+        if one.label == "hit" and question != "overlap":
             assert one.t_lo <= two.t_hi and two.t_lo <= one.t_hi
 
 
@@ -77,7 +77,7 @@ def test_cubes_face_to_face():
     assert label(cubes("overlap", [2 + 2.0**-48, 0, 0])).label == "clear"
     assert label(cubes("overlap", [2 - 2.0**-48, 0, 0])).label == "hit"
     touching = label(cubes("overlap", [2, 0, 0]))
-    assert touching.label == "uncertain" and "touching" in touching.reason
+    assert (touching.label, touching.touching, touching.gap) == ("clear", True, 0)
     sweep = label(cubes("translation", [3, 0, 0], Motion([8, 0, 0])))
     assert (sweep.label, sweep.start, sweep.end) == ("hit", "clear", "clear")
     assert sweep.t_lo <= 0.125 <= sweep.t_hi <= 0.125 * (1 + 1e-12)
