@@ -74,8 +74,10 @@ def rotational_sweep(
     k: int = 8,
     **options,
 ) -> Answer:
-    """Rotational sweep: `a` (and `b`) turn about their own origins and translate. The virtual edges are chords of the true paths, seen
-    from `b`. Options as of `discrete`. Source: part 3 of the article, "Solving for rotating objects".
+    """Rotational sweep: `a` (and `b`) turn and translate as their motions say, about the origins of
+    their frames or about other points of theirs. The virtual edges are chords of the true paths,
+    seen from `b`. Options as of `discrete`. Source: part 3 of the article, "Solving for rotating
+    objects".
     """
     return _ask(True, a, b, pose_a, pose_b, motion_a, motion_b, OFG, k=k, **options)
 
@@ -117,8 +119,10 @@ def sweep_many(
 ) -> Answers:
     """Sweeps for n pairs of poses and motions in one call.
 
-    motions_a, motions_b: sequences of n Motion, or (n, 7) arrays of displacement, axis and angle; one Motion stands for n of it. Where
-    all angles are zero it is the translational sweep. The rest as of `discrete_many`.
+    motions_a, motions_b: sequences of n Motion, or (n, 10) arrays of displacement, axis, angle and
+    about, or (n, 7) without about, which turn about the origins of the bodies' frames; one Motion
+    stands for n of it. Where all angles are zero it is the translational sweep. The rest as of
+    `discrete_many`.
     """
     return _many(True, a, b, poses_a, poses_b, motions_a, motions_b, OFG, threads, k=k, **options)
 
@@ -176,7 +180,7 @@ def _many(moving, a, b, poses_a, poses_b, motions_a, motions_b, algorithm, threa
         _rows(motions_b, Motion, "motions_b"),
     ]
     n = max(len(r) for r in rows if r.ndim == 2) if any(r.ndim == 2 for r in rows) else 1
-    rows = [np.ascontiguousarray(np.broadcast_to(r, (n, 7))) for r in rows if _fits(r, n)]
+    rows = [np.ascontiguousarray(np.broadcast_to(r, (n, r.shape[-1]))) for r in rows if _fits(r, n)]
     if threads is None:
         threads = os.cpu_count() or 1
     if threads < 1:
@@ -194,23 +198,31 @@ def _is_float(precision: str) -> bool:
 def _row(value: Pose | Motion) -> np.ndarray:
     if isinstance(value, Pose):
         return np.concatenate([value.quaternion, value.position])
-    return np.concatenate([value.displacement, value.axis, [value.angle]])
+    return np.concatenate([value.displacement, value.axis, [value.angle], value.about])
+
+
+#: what the columns of arrays of each kind are; the last three of a motion may be left out
+_COLUMNS = {
+    Pose: (7, (7,), "(n, 7): quaternion (w, x, y, z), position"),
+    Motion: (10, (7, 10), "(n, 10): displacement, axis, angle, about; or (n, 7) without about"),
+}
 
 
 def _rows(values: Pose | Motion | Sequence | np.ndarray, kind: type, name: str) -> np.ndarray:
-    """(7,) for one value, (n, 7) for a sequence or an array of them, checked."""
+    """(7,) of a Pose or (10,) of a Motion; (n, 7) or (n, 10) of many, in a sequence or an array."""
     if isinstance(values, kind):
         return _row(values)
+    columns, given, words = _COLUMNS[kind]
     if not isinstance(values, np.ndarray):
         wrong = next((v for v in values if not isinstance(v, kind)), None)
         if wrong is not None:
-            raise TypeError(f"{name} holds {wrong!r}; give {kind.__name__} objects or an (n, 7) float array.")
-        return np.array([_row(v) for v in values]).reshape(-1, 7)
+            raise TypeError(
+                f"{name} holds {wrong!r}; give {kind.__name__} objects or an {words.split(':')[0]} float array."
+            )
+        return np.array([_row(v) for v in values]).reshape(-1, columns)
     rows = np.asarray(values, np.float64)
-    if rows.ndim != 2 or rows.shape[1] != 7:
-        raise ValueError(
-            f"{name} has shape {rows.shape}; give (n, 7): {'quaternion (w, x, y, z), position' if kind is Pose else 'displacement, axis, angle'}."
-        )
+    if rows.ndim != 2 or rows.shape[1] not in given:
+        raise ValueError(f"{name} has shape {rows.shape}; give {words}.")
     bad = np.flatnonzero(~np.isfinite(rows).all(axis=1))
     if len(bad):
         raise ValueError(f"{name}[{bad[0]}] = {rows[bad[0]]} holds a number that is not finite; every number must be finite.")
@@ -218,7 +230,7 @@ def _rows(values: Pose | Motion | Sequence | np.ndarray, kind: type, name: str) 
     if len(zero):
         what = "a zero quaternion" if kind is Pose else "an angle about a zero axis"
         raise ValueError(f"{name}[{zero[0]}] has {what}, which is no rotation; use (1, 0, 0, 0), or an axis with a length.")
-    return rows
+    return np.pad(rows, ((0, 0), (0, columns - rows.shape[1])))
 
 
 def _fits(rows: np.ndarray, n: int) -> bool:

@@ -58,8 +58,12 @@ ofg::Answer ask(Algorithm how, bool moving, const Solid& a, const Solid& b, cons
   return moving ? ofg::sweep(ba, bb, track, o, w) : ofg::overlap(ba, bb, track, o, w);
 }
 
+// Rows of arrays: quaternion and position; displacement, axis, angle and the point turned about.
+constexpr std::size_t pose_columns = 7, motion_columns = 10;
 ofg::Pose pose_of(const double* p) { return {{p[0], p[1], p[2], p[3]}, {p[4], p[5], p[6]}}; }
-ofg::Motion motion_of(const double* m) { return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, m[6]}; }
+ofg::Motion motion_of(const double* m) {
+  return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, m[6], {m[7], m[8], m[9]}};
+}
 
 // One query, ready to be asked again and again: what a harness times.
 struct Prepared {
@@ -85,9 +89,9 @@ struct Prepared {
         a(nb::cast<const Solid&>(oa)),
         b(nb::cast<const Solid&>(ob)),
         pose_a(pose_of(poses.data())),
-        pose_b(pose_of(poses.data() + 7)),
+        pose_b(pose_of(poses.data() + pose_columns)),
         motion_a(motion_of(motions.data())),
-        motion_b(motion_of(motions.data() + 7)),
+        motion_b(motion_of(motions.data() + motion_columns)),
         options(o),
         how(Algorithm(how_)),
         moving(moving_),
@@ -127,7 +131,8 @@ void ask_range(Algorithm how, bool moving, const Solid& a, const Solid& b, const
     return;
   }
   for (std::size_t i = from; i < to; ++i) {
-    const ofg::Track track(pose_of(pa + 7 * i), pose_of(pb + 7 * i), motion_of(ma + 7 * i), motion_of(mb + 7 * i));
+    const ofg::Track track(pose_of(pa + pose_columns * i), pose_of(pb + pose_columns * i),
+                           motion_of(ma + motion_columns * i), motion_of(mb + motion_columns * i));
     out[i] = ask(how, moving, a, b, track, o, w);
   }
 }
@@ -209,6 +214,16 @@ nb::ndarray<nb::numpy, double> least_points(const Solid& solid, Doubles axes) {
   return out;
 }
 
+// Bounds on how far vertices of A seen from B, and those of B that meet A seen from A, stray over a
+// share of the step. For the tests.
+nb::tuple strays(const Solid& a, const Solid& b, Doubles poses, Doubles motions, double share) {
+  const double *p = poses.data(), *m = motions.data();
+  const ofg::Track track(pose_of(p), pose_of(p + pose_columns), motion_of(m),
+                         motion_of(m + motion_columns));
+  return nb::make_tuple(ofg::detail::stray(a.fine.whole, track, share),
+                        ofg::detail::stray_of_b(a.fine.whole, b.fine.whole, track, share));
+}
+
 NB_MODULE(_core, m) {
   m.def(
       "set_isa", [](int isa) { return ofg::set_isa(ofg::Isa(isa)); }, "isa"_a,
@@ -218,6 +233,7 @@ NB_MODULE(_core, m) {
   m.def("triangles_meet", &triangles_meet<double>, "pairs"_a);
   m.def("triangles_meet_float", &triangles_meet<float>, "pairs"_a);
   m.def("least_points", &least_points, "solid"_a, "axes"_a);
+  m.def("strays", &strays, "a"_a, "b"_a, "poses"_a, "motions"_a, "share"_a);
   nb::class_<Solid>(m, "Solid")
       .def(nb::init<Doubles, Ints, bool, const std::vector<Doubles>&, const std::vector<Ints>&>(), "vertices"_a, "faces"_a,
            "convex"_a, "piece_vertices"_a, "piece_faces"_a);

@@ -59,7 +59,7 @@ Answer sweep(const Body<T>& a, const Body<T>& b, const Track& track) {
   const Mesh<T>&ma = a.whole, &mb = b.whole;
   const ofg::detail::Window<T> window{0, 1, track.at(0), track.at(1)};
   const Transform<T> start(window.start), end(window.end);
-  const T scale = std::fmax(ofg::detail::scale_of(ma, mb, start.p), ofg::detail::scale_of(ma, mb, end.p));
+  const T scale = ofg::detail::scale_of(ma, mb, track, window);
   ofg::detail::Contact contact;
   for (int i = 0; i < ma.vertices.size(); ++i)
     for (int j = 0; j < mb.size(); ++j) {

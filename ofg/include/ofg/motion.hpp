@@ -11,11 +11,13 @@ struct Pose {
   Vec3<double> p;
 };
 
-// x(t) = p + t d + Rot(axis/|axis|, angle t) R(q) v for t in [0, 1]: a body turns about its own frame's origin.
+// x(t) = p + R(q) c + t d + Rot(axis/|axis|, angle t) R(q) (v - c) for t in [0, 1]: a body turns
+// about its point c = `about`, which is given in its own frame.
 struct Motion {
   Vec3<double> displacement;
   Vec3<double> axis{0, 0, 1};
   double angle = 0;
+  Vec3<double> about;
 };
 
 template <class T>
@@ -57,17 +59,24 @@ struct Mover {
   Mat3<double> r;
   Vec3<double> p;
   Motion motion;
+  Vec3<double> arm;  // from the frame's origin to the point turned about, at the start, in the
+                     // world; zero where nothing turns
 
-  Mover(const Pose& pose, const Motion& m) : r(rotation(pose.q)), p(pose.p), motion(m) {}
-  bool turns() const { return motion.angle != 0; }
-  Transform<double> at(double t) const {
-    return {turns() ? turn(motion.axis, motion.angle * t) * r : r, p + motion.displacement * t};
+  Mover(const Pose& pose, const Motion& m) : r(rotation(pose.q)), p(pose.p), motion(m) {
+    if (turns())
+      arm = r * m.about;
+    else
+      motion.about = {};  // where nothing turns any point will do
   }
-  // How far a point of the body at this distance from its origin can stray from its chord over a share h of the step:
-  // |x''| <= angle^2 distance, and no more than the diameter of its circle.
-  double stray(double distance, double h) const {
+  bool turns() const { return motion.angle != 0; }
+  Mat3<double> turned(double t) const { return turn(motion.axis, motion.angle * t); }
+  // How far a point of the body is from the point that it turns about.
+  double lever(const Vec3<double>& v) const { return length(v - motion.about); }
+  // How far a point of the body with this lever can stray from its chord over a share h of the
+  // step: |x''| <= angle^2 lever, and no more than the diameter of its circle.
+  double stray(double lever, double h) const {
     const double turned = std::abs(motion.angle) * h;
-    return distance * std::fmin(turned * turned / 8, 2.0);
+    return lever * std::fmin(turned * turned / 8, 2.0);
   }
 };
 
@@ -80,30 +89,57 @@ struct Track {
 
   bool turns() const { return a.turns() || b.turns(); }
 
+  // From the origin of B's frame at the start to A's, at time t if nothing turned: here positions
+  // far from the world's cancel.
+  Vec3<double> shift(double t) const {
+    return (a.p - b.p) + (a.motion.displacement - b.motion.displacement) * t;
+  }
+
   // A's frame in B's frame at time t.
   Transform<double> at(double t) const {
     if (!turns()) {
       const Mat3<double> rt = b.r.transposed();
-      return {rt * a.r, rt * ((a.p - b.p) + (a.motion.displacement - b.motion.displacement) * t)};
+      return {rt * a.r, rt * shift(t)};
     }
-    const Transform<double> ta = a.at(t), tb = b.at(t);
-    const Mat3<double> rt = tb.r.transposed();
-    return {rt * ta.r, rt * (ta.p - tb.p)};
+    Mat3<double> ra = a.r, rb = b.r;
+    Vec3<double> d = shift(t);
+    if (a.turns()) {
+      const Mat3<double> turned = a.turned(t);
+      ra = turned * a.r, d = d + (a.arm - turned * a.arm);
+    }
+    if (b.turns()) {
+      const Mat3<double> turned = b.turned(t);
+      rb = turned * b.r, d = d - (b.arm - turned * b.arm);
+    }
+    const Mat3<double> rt = rb.transposed();
+    return {rt * ra, rt * d};
   }
 
   // From a point of B to a point of A (each in its own frame), in the world, at time t.
   Vec3<double> between(const Vec3<double>& in_a, const Vec3<double>& in_b, double t) const {
-    const Vec3<double> d = (a.p - b.p) + (a.motion.displacement - b.motion.displacement) * t;
-    const Vec3<double> ra = a.r * in_a, rb = b.r * in_b;
-    return d + (a.turns() ? turn(a.motion.axis, a.motion.angle * t) * ra : ra) -
-           (b.turns() ? turn(b.motion.axis, b.motion.angle * t) * rb : rb);
+    const auto moved = [t](const Mover& m, const Vec3<double>& v) {
+      const Vec3<double> w = m.r * v;
+      return m.turns() ? m.turned(t) * (w - m.arm) + m.arm : w;
+    };
+    return shift(t) + moved(a, in_a) - moved(b, in_b);
   }
 
-  // Bound on the relative speed (length per step) of points at these distances from the origins of their bodies, seen from
-  // the frame of A or of B whichever turns; `apart` bounds the distance between the two origins over the step.
-  double speed(double distance_a, double distance_b, double apart) const {
-    const Vec3<double> v = a.motion.displacement - b.motion.displacement;
-    return length(v) + (std::abs(a.motion.angle) + std::abs(b.motion.angle)) * (distance_a + distance_b + apart);
+  // From the point that B turns about to the one that A turns about, at time t: linear in t.
+  Vec3<double> pivots(double t) const { return shift(t) + (a.arm - b.arm); }
+
+  // Lengths that a turn adds and takes away again: the rounding of poses is of their size.
+  double arms() const { return length(a.arm) + length(b.arm); }
+
+  // Bound on the relative velocity of the points turned about.
+  double slide() const { return length(a.motion.displacement - b.motion.displacement); }
+
+  // Bound on the speed (length per step) of a point of A with lever_a seen from B, where lever_b is
+  // 0, or of a point of B with lever_b seen from A, where lever_a is 0; `apart` bounds the distance
+  // between the points turned about. Seen from B, with r = x_A - P_B from B's point turned about:
+  // |r' - w_B x r| <= slide + |w_A| lever_a + |w_B| (lever_a + apart).
+  double speed(double lever_a, double lever_b, double apart) const {
+    return slide() +
+           (std::abs(a.motion.angle) + std::abs(b.motion.angle)) * (lever_a + lever_b + apart);
   }
 };
 

@@ -2,6 +2,7 @@
 // of A as seen from B; its virtual edges are exact for translations and chords of the true paths for turns.
 #pragma once
 #include "overlap.hpp"
+#include "stray.hpp"
 
 namespace ofg {
 namespace detail {
@@ -14,6 +15,14 @@ struct Window {
   double at(double share) const { return t0 + (t1 - t0) * share; }
 };
 
+// Bound on all coordinates that are tested in a window, in B's frame, and on the lengths that its
+// poses were rounded by.
+template <class T>
+T scale_of(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& w) {
+  const T ends = std::fmax(scale_of(a, b, Vec3<T>(w.start.p)), scale_of(a, b, Vec3<T>(w.end.p)));
+  return std::fmax(ends, T(track.arms()));
+}
+
 // Step 1 over a window: spheres swept along the chord between the centres, grown by what the true path strays from it.
 template <class T>
 bool swept_spheres_apart(const Mesh<T>& a, const Mesh<T>& b, const Track& track, double t0, double t1, double slack) {
@@ -21,7 +30,8 @@ bool swept_spheres_apart(const Mesh<T>& a, const Mesh<T>& b, const Track& track,
   const Vec3<double> from = track.between(ca, cb, t0), step = track.between(ca, cb, t1) - from;
   const double along = dot(step, step);
   const double at = along > 0 ? std::fmin(1.0, std::fmax(0.0, -dot(from, step) / along)) : 0.0;
-  const double stray = track.a.stray(length(ca), t1 - t0) + track.b.stray(length(cb), t1 - t0);
+  const double stray =
+      track.a.stray(track.a.lever(ca), t1 - t0) + track.b.stray(track.b.lever(cb), t1 - t0);
   return spheres_apart(from + step * at, double(a.radius) + double(b.radius) + stray + slack);
 }
 
@@ -236,23 +246,14 @@ void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Wi
   T reach_a = b.radius, reach_b = 0;
   double far = 0;
   if (o.adaptive_k) {
-    const Vec3<double> d = track.a.motion.displacement - track.b.motion.displacement;
-    far = length(window.start.p) + length(d) * (window.t1 - window.t0);
-    reach_a += T(gap * track.speed(0, length(cb), far));
+    far = length(track.pivots(window.t0)) + track.slide() * (window.t1 - window.t0);
+    reach_a += T(gap * track.speed(0, track.b.lever(cb), far));
   }
   select(a, point, n, o, reach_a, w, w.a, counts);
-  if (o.adaptive_k) reach_b = w.a.radius + T(gap * track.speed(length(Vec3<double>(w.a.centre)), 0, far));
+  if (o.adaptive_k)
+    reach_b = w.a.radius + T(gap * track.speed(track.a.lever(Vec3<double>(w.a.centre)), 0, far));
   for (int i = 0; i < n; ++i) point[i] = Vec3<T>(pose[i](Vec3<double>(w.a.centre)));
   select(b, point, n, o, reach_b, w, w.b, counts);
-}
-
-// How far any vertex of A, seen from B, can stray from its chord over a share h of the step: |x''| h^2 / 8.
-template <class T>
-double stray(const Mesh<T>& a, const Track& track, double h) {
-  const double wa = std::abs(track.a.motion.angle), wb = std::abs(track.b.motion.angle);
-  if (wa == 0 && wb == 0) return 0;
-  const double v = length(track.a.motion.displacement - track.b.motion.displacement), apart = length(track.a.p - track.b.p) + v;
-  return (wa * wa * a.extent + 2 * wb * (wa * a.extent + v) + wb * wb * (apart + a.extent)) * h * h / 8;
 }
 
 // One plane between the hulls of the whole meshes, with room for the stray: the bodies are apart throughout the window, on their
@@ -276,12 +277,16 @@ template <class T>
 bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, bool first, const Options& o,
                   Workspace<T>& w, Answer& answer) {
   Counts& counts = answer.counts;
-  const T scale = std::fmax(scale_of(a, b, Vec3<T>(window.start.p)), scale_of(a, b, Vec3<T>(window.end.p)));
+  const T scale = scale_of(a, b, track, window);
   select_for(a, b, track, window, o, w, counts);
   list_vertices(a, w, w.a);
   if (o.both_vertices) list_vertices(b, w, w.b);
   if (o.edge_edge) list_edges(a, w, w.a), list_edges(b, w, w.b);
-  const T room = 4 * rounding<T> * scale + (o.both_vertices ? 2 * T(stray(a, track, window.t1 - window.t0)) : T(0));
+  // Where a chord of B's vertex meets a face of A, the two are no farther apart at that time than
+  // both stray.
+  const double h = window.t1 - window.t0;
+  const T room = 4 * rounding<T> * scale +
+                 (o.both_vertices ? T(stray(a, track, h) + stray_of_b(a, b, track, h)) : T(0));
   if (chords_apart(a, window, room, w)) {
     counts.face_pairs += std::int64_t(1 + first) * w.a.size() * w.b.size();
     counts.edge_faces += std::int64_t(w.a.vertices.size()) * w.b.size();
@@ -322,7 +327,8 @@ struct Sweep {
   Vec3<T> axis;
 
   double slack(const Window<T>& x) const {
-    return rounding<T> * (2 * (double(a.extent) + b.extent) + length(x.start.p) + length(x.end.p));
+    return rounding<T> *
+           (2 * (double(a.extent) + b.extent + track.arms()) + length(x.start.p) + length(x.end.p));
   }
 
   // Windows in the order of time, halved until their chords are true enough, or the bodies surely apart. No deeper than 24: a
@@ -336,7 +342,10 @@ struct Sweep {
     const double away = tolerance < std::numeric_limits<double>::infinity() ? stray(a, track, x.t1 - x.t0) : 0;
     const bool proof = away > 0 || (o.adaptive_k && !track.turns());
     if (proof && away < a.radius && hulls_apart(a, b, x, T(away + slack(x)), axis)) return false;
-    if (!(away > tolerance) || depth == 24) return sweep_window(a, b, track, x, first, o, w, answer);
+    const double astray =
+        away > 0 && o.both_vertices ? std::fmax(away, stray_of_b(a, b, track, x.t1 - x.t0)) : away;
+    if (!(astray > tolerance) || depth == 24)
+      return sweep_window(a, b, track, x, first, o, w, answer);
     const double middle = (x.t0 + x.t1) / 2;
     const Transform<double> pose = track.at(middle);
     return meet({x.t0, middle, x.start, pose}, first, depth + 1) || meet({middle, x.t1, pose, x.end}, false, depth + 1);
@@ -349,7 +358,9 @@ struct Sweep {
 template <class T>
 Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o, Workspace<T>& w) {
   Answer answer;
-  const auto slack = [&](const Transform<double>& pose) { return rounding<T> * (length(pose.p) + a.extent + b.extent); };
+  const auto slack = [&](const Transform<double>& pose) {
+    return rounding<T> * (length(pose.p) + a.extent + b.extent + track.arms());
+  };
   detail::Window<T> window{0, 1, track.at(0), track.at(1)};
   ++answer.counts.spheres;
   const Vec3<double> ca(a.centre), cb(b.centre);

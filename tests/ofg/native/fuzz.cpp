@@ -79,6 +79,8 @@ static Asked query(Random& r, double scale) {
     if (grid) m->displacement = {scale * whole(r, -4, 4), scale * whole(r, -4, 4), scale * whole(r, -4, 4)};
     m->axis = {uniform(r, -1, 1), 1, uniform(r, -1, 1)};
     m->angle = whole(r, 0, 1) ? 0 : uniform(r, -7, 7);
+    const double arm = whole(r, 0, 1) ? 0 : scale * std::pow(10, uniform(r, -1, 2));
+    m->about = {arm * uniform(r, -1, 1), arm * uniform(r, -1, 1), arm * uniform(r, -1, 1)};
     if (m == &x.n && whole(r, 0, 1)) *m = {};
   }
   x.o.k = whole(r, 0, 4) ? whole(r, 1, 20) : 1000000;
