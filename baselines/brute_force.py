@@ -21,6 +21,7 @@ class BruteForce(Method):
     questions = frozenset(QUESTIONS)
     bodies = frozenset({"convex", "union", "mesh"})
     solid = False
+    movers, about = 2, True
     gives_time = True
     guarantee = "overlap: surfaces that meet are found, to double rounding; sweeps: only what A's vertices meet on their chords"
 

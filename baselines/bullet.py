@@ -39,17 +39,17 @@ class Bullet(Discrete):
     solid = True
     margin = 2 * MARGIN
     guarantee = "GJK/EPA in doubles on hulls grown by 0.001 each"
+    places_b = True
     threshold = 0.0  #: a reported distance below this is an overlap
 
     def build(self, query: Query):
         bullet, client = _client()
         shapes_a, shapes_b = (_hulls(bullet, client, body) for body in (query.a, query.b))
         pairs = list(product(shapes_a, shapes_b))
-        position_b, turn_b = _place(query.pose_b)
         threshold = self.threshold
 
         def test(at) -> bool:
-            position, turn = at
+            position, turn, position_b, turn_b = at
             for a, b in pairs:
                 points = bullet.getClosestPoints(
                     -1, -1, 0.0, collisionShapeA=a, collisionShapeB=b, collisionShapePositionA=position, collisionShapeOrientationA=turn,
@@ -59,7 +59,7 @@ class Bullet(Discrete):
             return False
 
         weakref.finalize(test, _remove, bullet, client, shapes_a + shapes_b)
-        return _place, test
+        return lambda a, b=query.pose_b: _place(a) + _place(b), test
 
 
 class BulletNoMargin(Normalised, Bullet):

@@ -36,26 +36,30 @@ class CoalConvex(Discrete):
     configuration = "default"
     bodies = frozenset({"convex", "union"})
     solid = True
+    places_b = True
     guarantee = "GJK/EPA in doubles, tolerance 1e-6"
 
     def shapes(self, coal, body: Body) -> list:
         return [coal.Convex(*_arrays(coal, piece)) for piece in body.pieces]
 
-    def ask_pair(self, coal, a, b, at_b) -> Callable:
-        """One pair of shapes: pose of A -> overlap."""
+    def ask_pair(self, coal, a, b) -> Callable:
+        """One pair of shapes: poses of A and B -> overlap."""
         request = coal.CollisionRequest()
 
-        def ask(at) -> bool:
-            return coal.collide(a, at, b, at_b, request, coal.CollisionResult()) > 0
+        def ask(at_a, at_b) -> bool:
+            return coal.collide(a, at_a, b, at_b, request, coal.CollisionResult()) > 0
 
         return ask
 
     def build(self, query: Query):
         coal = _coal()
-        at_b = _place(query.pose_b)
         pairs = product(self.shapes(coal, query.a), self.shapes(coal, query.b))
-        asks = [self.ask_pair(coal, a, b, at_b) for a, b in pairs]
-        return _place, lambda at: any(ask(at) for ask in asks)
+        asks = [self.ask_pair(coal, a, b) for a, b in pairs]
+
+        def place(a: Pose, b: Pose = query.pose_b):
+            return _place(a), _place(b)
+
+        return place, lambda at: any(ask(*at) for ask in asks)
 
 
 class CoalConvexExact(Normalised, CoalConvex):
@@ -65,16 +69,16 @@ class CoalConvexExact(Normalised, CoalConvex):
     configuration = "best effort"
     guarantee = "GJK/EPA in doubles, tolerance 1e-12"
 
-    def ask_pair(self, coal, a, b, at_b) -> Callable:
+    def ask_pair(self, coal, a, b) -> Callable:
         collide, result = coal.ComputeCollision(a, b), coal.CollisionResult()
         request = coal.CollisionRequest(coal.CollisionRequestFlag.NO_REQUEST, 1)
         request.gjk_tolerance = request.epa_tolerance = 1e-12
         request.gjk_max_iterations = request.epa_max_iterations = 1000
         shapes = a, b  # ComputeCollision keeps bare pointers to them
 
-        def ask(at, _keep=shapes) -> bool:
+        def ask(at_a, at_b, _keep=shapes) -> bool:
             result.clear()
-            return collide(at, at_b, request, result) > 0
+            return collide(at_a, at_b, request, result) > 0
 
         return ask
 

@@ -12,13 +12,15 @@ import math
 import multiprocessing
 import os
 import signal
+from dataclasses import replace
 from typing import Callable, Iterator
 
 import numpy as np
 
 from ofg import QUESTIONS, Body, Motion, Pose, Query
 
-from .contract import MissingEngine, Method, Unsupported, Verdict
+from .contract import Method, Unsupported, Verdict
+from .frames import product
 
 CONFIGURATIONS = ("default", "best effort", "alternative", "as written")
 KINDS = ("convex", "union", "mesh")
@@ -90,6 +92,12 @@ def body(kind: str, half: float = 1.0) -> Body:
     return cube
 
 
+def bar(kind: str) -> Body:
+    """A bar of length 6 along x."""
+    made = box(3, 0.4, 0.4, name="bar")
+    return Body.mesh(made.vertices, made.faces) if kind == "mesh" else Body.union([made]) if kind == "union" else made
+
+
 def hooked(kind: str) -> Body:
     """An L in the xy plane: arms of width 1 and length 3 from the corner (0, 0); the notch is 1 < x, y < 3."""
     if kind == "union":
@@ -114,7 +122,7 @@ def sweep(question: str, kind: str, start, displacement, half: float = 1.0) -> Q
 
 
 def asked(method: Method, query: Query) -> Verdict:
-    return method.prepare(query)()
+    return method.ready(query)()
 
 
 def kinds(method: Method) -> list[str]:
@@ -208,8 +216,7 @@ def head_on(method: Method) -> Iterator[str]:
         verdict = asked(method, sweep(question, kind, (-5, side, side / 2), (far, 0, 0)))
         exact = 3 / far
         fault = _time_fault(method, verdict, exact) if verdict.hit else "missed"
-        sampled = method.time_error == method.time_error and method.time_error > 0.4  # end pose only: may pass through
-        if fault and not (sampled and not verdict.hit):
+        if fault and not (_blind(method, 0.4) and not verdict.hit):  # looks at the end alone: may pass through
             yield f"{question}, {kind}, offset {side}, meets at {exact:g}: {fault}"
 
 
@@ -226,7 +233,7 @@ def _time_fault(method: Method, verdict: Verdict, exact: float) -> str:
 def same_again(method: Method) -> Iterator[str]:
     """The same callable twice, after others, and prepared anew: one answer."""
     queries = [query for _, query, _ in easy(method)] + [sweep(q, k, (-5, 0.3, 0.1), (10, 0, 0)) for q, k in sweeps(method)]
-    calls = [method.prepare(query) for query in queries]
+    calls = [method.ready(query) for query in queries]
     first = [call() for call in calls]
     for what, again in (("asked again in reverse order", [call() for call in reversed(calls)][::-1]),
                         ("prepared anew", [asked(method, query) for query in queries]),
@@ -241,11 +248,12 @@ def moved_together(method: Method) -> Iterator[str]:
     frame = Pose((0.8, 0.1, 0.5, -0.3), (3, -2, 1))
 
     def moved(pose: Pose) -> Pose:
-        return Pose(_product(frame.quaternion, pose.quaternion), frame.apply(pose.position[None])[0])
+        return Pose(product(frame.quaternion, pose.quaternion), frame.apply(pose.position[None])[0])
 
     for what, query, hit in easy(method):
+        poses = {"pose_a": moved(query.pose_a), "pose_b": moved(query.pose_b)}
         motion = Motion(frame.rotation @ query.motion.displacement)
-        verdict = asked(method, Query(query.question, query.a, query.b, moved(query.pose_a), moved(query.pose_b), motion))
+        verdict = asked(method, replace(query, **poses, motion=motion))
         if verdict.hit != hit:
             yield f"{what}, moved together: answered {_word(verdict)}"
 
@@ -277,17 +285,75 @@ def turns(method: Method) -> Iterator[str]:
     if "motion" not in method.questions:
         return
     for kind in kinds(method):
-        bar = box(3, 0.4, 0.4, name="bar")
-        bar = Body.mesh(bar.vertices, bar.faces) if kind == "mesh" else Body.union([bar]) if kind == "union" else bar
         for angle, hit in ((math.radians(170), True), (0.0, False)):
-            verdict = asked(method, Query("motion", bar, body(kind, 0.4), Pose(), Pose(position=(0, 2, 0)), Motion((0, 0, 0.01), (0, 0, 1), angle)))
-            sampled = method.time_error == method.time_error and method.time_error > 0.1
-            if verdict.hit != hit and not sampled:
+            verdict = asked(method, Query("motion", bar(kind), body(kind, 0.4), Pose(), Pose(position=(0, 2, 0)), Motion((0, 0, 0.01), (0, 0, 1), angle)))
+            if verdict.hit != hit and not _blind(method, 0.1):
                 yield f"{kind}: a bar turning by {math.degrees(angle):.0f} degrees {'into' if hit else 'beside'} a cube: {_word(verdict)}"
 
 
-def _product(p, q) -> np.ndarray:
-    return np.concatenate([[p[0] * q[0] - p[1:] @ q[1:]], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])])
+def both_translate(method: Method) -> Iterator[str]:
+    """Cubes that meet at t = 0.3 by their common speed, and cubes that fly side by side."""
+    for (question, kind), far_b in itertools.product(sweeps(method), (-5.0, -10.0, 10.0)):
+        query = sweep(question, kind, (-5, 0.3, 0.15), (10 + far_b, 0, 0))
+        verdict = _unless_refused(method, replace(query, motion_b=Motion((far_b, 0, 0))))
+        if verdict and (fault := _time_fault(method, verdict, 0.3) if verdict.hit else "missed"):
+            if verdict.hit or not _blind(method, 0.4):
+                yield f"{question}, {kind}, B moves by {far_b:g}, meets at 0.3: {fault}"
+        along = sweep(question, kind, (-5, 0.3, 0.15), (far_b, 0, 0))
+        verdict = _unless_refused(method, replace(along, motion_b=along.motion))
+        if verdict and verdict.hit:
+            yield f"{question}, {kind}, side by side by {far_b:g}: answered {_word(verdict)}"
+
+
+def b_turns(method: Method) -> Iterator[str]:
+    """A bar as B turns by 60 degrees past a cube, which lies still or turns in place."""
+    at = Pose(position=(2.25, 1.3, 0))
+    for kind, spin in itertools.product(_turned_kinds(method), (0.0, 1.0)):
+        for angle, hit in ((math.pi / 3, True), (0.0, False)):
+            motions = Motion(angle=spin), Motion((0, 0, 0.01), angle=angle)
+            query = Query("motion", body(kind, 0.4), bar(kind), at, Pose(), *motions)
+            yield from _turn_fault(method, f"{kind}, A turns by {spin:g}, B by {angle:g}", query, hit)
+
+
+def turn_together(method: Method) -> Iterator[str]:
+    """A bar turns, and a cube with it, about the bar's centre: they never meet."""
+    at, turn = np.array([2.25, 1.3, 0]), math.pi / 3
+    for kind in _turned_kinds(method):
+        motions = Motion(angle=turn), Motion(angle=turn, about=-at)
+        query = Query("motion", bar(kind), body(kind, 0.4), Pose(), Pose(position=at), *motions)
+        yield from _turn_fault(method, f"{kind}, as one body", query, False)
+        yield from _turn_fault(method, f"{kind}, as one body, exchanged", query.swapped(), False)
+
+
+def about_a_point(method: Method) -> Iterator[str]:
+    """A bar turns about a point ten lengths off, which carries it through a cube; and about its centre."""
+    for kind, (about, hit) in itertools.product(_turned_kinds(method), ((-10, True), (0, False))):
+        motion = Motion(angle=0.3, about=(about, 0, 0))
+        query = Query("motion", bar(kind), body(kind, 0.4), Pose(), Pose(position=(0.5, 1.5, 0)), motion)
+        yield from _turn_fault(method, f"{kind}, A turns about ({about}, 0, 0)", query, hit)
+        yield from _turn_fault(method, f"{kind}, B turns about ({about}, 0, 0)", query.swapped(), hit)
+
+
+def _turn_fault(method: Method, what: str, query: Query, hit: bool) -> Iterator[str]:
+    verdict = _unless_refused(method, query)
+    if verdict and verdict.hit != hit and not _blind(method, 0.1):
+        yield f"{what}: answered {_word(verdict)}"
+
+
+def _unless_refused(method: Method, query: Query) -> Verdict | None:
+    try:
+        return asked(method, query)
+    except Unsupported:
+        return None
+
+
+def _blind(method: Method, longest: float) -> bool:
+    """Whether the method looks at times that are further apart than this share of the step."""
+    return not math.isnan(method.time_error) and method.time_error > longest
+
+
+def _turned_kinds(method: Method) -> list[str]:
+    return kinds(method) if "motion" in method.questions else []
 
 
 def _word(verdict: Verdict) -> str:
@@ -306,4 +372,8 @@ PROPERTIES: list[tuple[str, Callable[[Method], Iterator[str]]]] = [
     ("refuses what it does not declare", refuses),
     ("a translation is a motion that does not turn", translation_is_motion),
     ("sees what a turning bar meets", turns),
+    ("meets what moves towards it", both_translate),
+    ("sees what B meets as it turns", b_turns),
+    ("sees that bodies turn together", turn_together),
+    ("turns about the point that it is told", about_a_point),
 ]

@@ -9,6 +9,11 @@ from typing import Any, Callable, ClassVar, Mapping
 
 from ofg import Query
 
+from .errors import MissingEngine, Unsupported
+from .frames import stated
+
+__all__ = ["Method", "MissingEngine", "Unsupported", "Verdict"]
+
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
@@ -16,14 +21,6 @@ class Verdict:
 
     hit: bool
     time: float = nan
-
-
-class Unsupported(Exception):
-    """Raised by `prepare` with the reason why this method cannot be asked this query. Never counted as a miss."""
-
-
-class MissingEngine(ImportError):
-    """The engine's package is not installed; the message says how to install it."""
 
 
 class Method(ABC):
@@ -41,6 +38,10 @@ class Method(ABC):
     questions: ClassVar[frozenset[str]]  #: subset of ofg.QUESTIONS
     bodies: ClassVar[frozenset[str]]  #: subset of {"convex", "union", "mesh"}
     solid: ClassVar[bool]  #: False: tests surfaces, so a contained body is not seen
+    #: 1: `prepare` gets queries in which A alone moves (see frames.one_mover). 2: it reads motion_b too
+    movers: ClassVar[int] = 1
+    #: True: it reads Motion.about. False: a body that turns about a point is given with that point as its origin
+    about: ClassVar[bool] = False
     gives_time: ClassVar[bool] = False  #: returns a time of impact for sweeps
     margin: ClassVar[float] = 0.0  #: documented distance (length) below which a clear pair may be called a hit
     guarantee: ClassVar[str]  #: one line: what an answer is worth by its documentation
@@ -63,8 +64,22 @@ class Method(ABC):
         shown = {k: v for i, (k, v) in enumerate(self.parameters.items()) if i == 0 or v != defaults[k]}
         return " ".join([self.name, *(f"{k}={v}" for k, v in shown.items())])
 
+    def ready(self, query: Query) -> Callable[[], Verdict]:
+        """The callable that answers `query`: what a harness calls, and not `prepare`.
+
+        It states the motions as the method declares to know them, so that none is left unread.
+        Raises Unsupported with a reason.
+        """
+        self._refuse_undeclared(query)
+        return self.prepare(stated(query, self.movers, self.about))
+
     def refuse(self, query: Query) -> None:
         """Raise Unsupported where the declaration rules the query out."""
+        self._refuse_undeclared(query)
+        if stated(query, self.movers, self.about) is not query:
+            raise Unsupported("it does not know these motions as they stand; ask it by `ready`")
+
+    def _refuse_undeclared(self, query: Query) -> None:
         if query.question not in self.questions:
             raise Unsupported(f"does not answer {query.question}")
         for body in (query.a, query.b):
@@ -73,6 +88,9 @@ class Method(ABC):
 
     @abstractmethod
     def prepare(self, query: Query) -> Callable[[], Verdict]:
-        """Build for `query` and return the callable that answers it. Raises Unsupported with a reason."""
+        """Build for `query` and return the callable that answers it. Raises Unsupported with a reason.
+
+        Called by `ready`, with the motions as `movers` and `about` declare them.
+        """
 
 

@@ -33,6 +33,7 @@ class Drake(Discrete):
     configuration = "default"
     bodies = frozenset({"convex", "union"})
     solid = True
+    places_b = True
     guarantee = "GJK (FCL with libccd) in doubles"
 
     def ask(self, query_object, ids_a, ids_b) -> bool:
@@ -45,16 +46,23 @@ class Drake(Discrete):
         source = graph.RegisterSource("ofg")
         frame = graph.RegisterFrame(source, geometry.GeometryFrame("a"))
         ids_a = [graph.RegisterGeometry(source, frame, g) for g in _geometries(pydrake, query.a, "a", transform())]
-        ids_b = [graph.RegisterAnchoredGeometry(source, g) for g in _geometries(pydrake, query.b, "b", transform(query.pose_b.matrix))]
+        frames = [frame] if query.motion_b.rests else [frame, graph.RegisterFrame(source, geometry.GeometryFrame("b"))]
+        if query.motion_b.rests:
+            geometries_b = _geometries(pydrake, query.b, "b", transform(query.pose_b.matrix))
+            ids_b = [graph.RegisterAnchoredGeometry(source, g) for g in geometries_b]
+        else:
+            geometries_b = _geometries(pydrake, query.b, "b", transform())
+            ids_b = [graph.RegisterGeometry(source, frames[1], g) for g in geometries_b]
         for identity in ids_a + ids_b:
             graph.AssignRole(source, identity, geometry.ProximityProperties())
         context = graph.CreateDefaultContext()
         pose_port, query_port = graph.get_source_pose_port(source), graph.get_query_output_port()
 
-        def place(pose):
-            poses = geometry.FramePoseVector()
-            poses.set_value(frame, transform(pose.matrix))
-            return poses
+        def place(*poses):
+            vector = geometry.FramePoseVector()
+            for mover, pose in zip(frames, poses):
+                vector.set_value(mover, transform(pose.matrix))
+            return vector
 
         def test(at, _keep=graph) -> bool:
             pose_port.FixValue(context, at)

@@ -70,20 +70,27 @@ class _Overlap(Discrete):
     """fcl.collide on every pair of shapes, first hit wins. Subclasses mix in `shapes`."""
 
     solver = "GST_LIBCCD"
+    places_b = True
 
     def build(self, query: Query):
         fcl = _fcl()
         objects_a = [fcl.CollisionObject(s, fcl.Transform()) for s in self.shapes(query.a)]
         at_b = _transform(query.pose_b)
-        pairs = list(product(objects_a, [fcl.CollisionObject(s, at_b) for s in self.shapes(query.b)]))
+        objects_b = [fcl.CollisionObject(s, at_b) for s in self.shapes(query.b)]
+        pairs = list(product(objects_a, objects_b))
+        movers = objects_a if query.motion_b.rests else objects_a + objects_b
         ask = self.ask_pair(fcl)
 
-        def test(at) -> bool:
-            for a in objects_a:
-                a.setTransform(at)
+        def place(*poses: Pose) -> list:  # a transform for each mover
+            transforms = [_transform(pose) for pose in poses]
+            return [at for at, side in zip(transforms, (objects_a, objects_b)) for _ in side]
+
+        def test(places) -> bool:
+            for mover, at in zip(movers, places):
+                mover.setTransform(at)
             return any(ask(a, b) for a, b in pairs)
 
-        return _transform, test
+        return place, test
 
     def ask_pair(self, fcl) -> Callable:
         request = fcl.CollisionRequest(gjk_solver_type=getattr(fcl.GJKSolverType, self.solver))
@@ -153,10 +160,12 @@ class FclMeshSubsteps(Substeps, FclMesh):
 class _Continuous(Method):
     """fcl.continuousCollide from pose to pose. Subclasses mix in `shapes` and choose the modes.
 
-    FCL is told two poses only and takes the shortest turn between them, so a motion of more than 3 rad is asked in legs.
+    FCL is told two poses of each body and takes the shortest turn between them, about the body's origin, so a motion of
+    more than 3 rad is asked in legs.
     """
 
     gives_time = True
+    movers = 2
     solver = "GST_LIBCCD"
     advancement = "CCDC_CONSERVATIVE_ADVANCEMENT"
     path = {"translation": "CCDM_TRANS", "motion": "CCDM_LINEAR"}
@@ -175,21 +184,17 @@ class _Continuous(Method):
         request = fcl.ContinuousCollisionRequest(
             ccd_motion_type=getattr(fcl.CCDMotionType, path), gjk_solver_type=getattr(fcl.GJKSolverType, self.solver),
             ccd_solver_type=getattr(fcl.CCDSolverType, self.advancement), **self.limits())
-        n = 1 if path == "CCDM_TRANS" else max(1, math.ceil(abs(query.motion.angle) / 3))
-        stops = [_transform(query.motion.pose_at(query.pose_a, i / n)) for i in range(n + 1)]
-        at_b = _transform(query.pose_b)
-        objects_b = [fcl.CollisionObject(s, at_b) for s in self.shapes(query.b)]
-        shapes_a = self.shapes(query.a)
-        legs = [(i / n, stops[i + 1], list(product([fcl.CollisionObject(s, stops[i]) for s in shapes_a], objects_b))) for i in range(n)]
+        legs = self.legs(query, 1 if path == "CCDM_TRANS" else _legs(query))
+        n = len(legs)
 
         def ask() -> Verdict:
-            for start, stop, pairs in legs:
+            for start, stop_a, stop_b, pairs in legs:
                 first = math.inf
                 for a, b in pairs:
                     result = fcl.ContinuousCollisionResult()
                     if linear:
                         _zero_motions()
-                    fcl.continuousCollide(a, stop, b, at_b, request, result)
+                    fcl.continuousCollide(a, stop_a, b, stop_b, request, result)
                     if result.is_collide:
                         first = min(first, result.time_of_contact)
                 if first < math.inf:
@@ -197,6 +202,21 @@ class _Continuous(Method):
             return Verdict(False)
 
         return ask
+
+    def legs(self, query: Query, n: int) -> list[tuple]:
+        """(its start, both end poses, pairs of objects at their start poses) of each of n equal legs."""
+        fcl, shapes = _fcl(), (self.shapes(query.a), self.shapes(query.b))
+        sides = ((query.motion, query.pose_a), (query.motion_b, query.pose_b))
+        stops = [[_transform(m.pose_at(p, i / n)) for m, p in sides] for i in range(n + 1)]
+        legs = []
+        for i, (at, end) in enumerate(zip(stops, stops[1:])):
+            objects = [[fcl.CollisionObject(s, t) for s in side] for side, t in zip(shapes, at)]
+            legs.append((i / n, *end, list(product(*objects))))
+        return legs
+
+
+def _legs(query: Query) -> int:
+    return max(1, math.ceil(max(abs(query.motion.angle), abs(query.motion_b.angle)) / 3))
 
 
 class _DefaultRequest(_Continuous):

@@ -12,7 +12,7 @@ from typing import Callable
 
 import numpy as np
 
-from ofg import Query
+from ofg import Pose, Query
 
 from .contract import Method, MissingEngine, Verdict
 from .sampling import Discrete, Substeps
@@ -35,6 +35,7 @@ class Ipctk(Discrete):
     configuration = "default"
     bodies = frozenset({"convex", "union", "mesh"})
     solid = False
+    places_b = True
     guarantee = "triangle pairs in doubles; touching counts; surfaces only"
 
     def build(self, query: Query):
@@ -59,6 +60,7 @@ class IpctkCcd(Method):
     questions = frozenset({"translation", "motion"})
     bodies = frozenset({"convex", "union", "mesh"})
     solid = False
+    movers, about = 2, True
     gives_time = True
     guarantee = "never misses on straight vertex paths, never late (interval inclusion, tolerance 1e-6); surfaces only"
     parameters = {"n": 1, "max_iterations": 10_000_000}
@@ -76,8 +78,10 @@ class IpctkCcd(Method):
         self.refuse(query)
         ipctk = _ipctk()
         mesh, place, narrow, broad = _mesh(query), _placer(query), self.narrow_phase(ipctk), ipctk.SweepAndPrune()
-        n = self.parameters["n"] if query.motion.angle else 1  # a translation is one chord
-        stops = [place(query.motion.pose_at(query.pose_a, i / n)) for i in range(n + 1)]
+        turns = query.motion.angle or query.motion_b.angle
+        n = self.parameters["n"] if turns else 1  # a translation is one chord
+        sides = ((query.motion, query.pose_a), (query.motion_b, query.pose_b))
+        stops = [place(*(m.pose_at(p, i / n) for m, p in sides)) for i in range(n + 1)]
 
         def ask() -> Verdict:
             if ipctk.has_intersections(mesh, stops[0]):
@@ -119,8 +123,11 @@ def _mesh(query: Query):
 
 
 def _placer(query: Query) -> Callable:
-    still = query.pose_b.apply(query.b.vertices)
-    return lambda pose: np.asfortranarray(np.concatenate([pose.apply(query.a.vertices), still]))
+    def place(pose_a: Pose, pose_b: Pose = query.pose_b):
+        sides = pose_a.apply(query.a.vertices), pose_b.apply(query.b.vertices)
+        return np.asfortranarray(np.concatenate(sides))
+
+    return place
 
 
 METHODS = [Ipctk, IpctkSubsteps, IpctkCcd, IpctkCcdExact]

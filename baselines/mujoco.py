@@ -39,6 +39,7 @@ class Mujoco(Discrete):
     configuration = "default"
     bodies = frozenset({"convex", "union"})
     solid = True
+    places_b = True
     guarantee = "GJK/EPA in doubles on vertices stored as float32; ccd_tolerance 1e-6, 35 iterations"
 
     def options(self, mujoco, spec) -> None:
@@ -53,14 +54,20 @@ class Mujoco(Discrete):
         model, data = _compile(mujoco, spec)
         pairs = _pairs(query.a, query.b)
         data.mocap_pos[1], data.mocap_quat[1] = _place(query.pose_b)
-        slot_position, slot_turn, distance, kinematics = data.mocap_pos[0], data.mocap_quat[0], mujoco.mj_geomDistance, mujoco.mj_kinematics
+        positions, turns = data.mocap_pos, data.mocap_quat
+        if query.motion_b.rests:  # A's alone are written at each call
+            positions, turns = positions[:1], turns[:1]
+        distance, kinematics = mujoco.mj_geomDistance, mujoco.mj_kinematics
+
+        def place(*poses: Pose) -> tuple[np.ndarray, np.ndarray]:
+            return tuple(map(np.array, zip(*map(_place, poses))))
 
         def test(at) -> bool:
-            slot_position[:], slot_turn[:] = at
+            positions[:], turns[:] = at
             kinematics(model, data)
             return any(distance(model, data, a, b, DISTMAX, None) < 0 for a, b in pairs)
 
-        return _place, test
+        return place, test
 
 
 class MujocoExact(Normalised, Mujoco):

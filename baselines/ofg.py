@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 from typing import Callable
 
@@ -31,6 +32,7 @@ class OpposingFaceGeometry(Method):
     questions = frozenset(QUESTIONS)
     bodies = frozenset({"convex", "union", "mesh"})
     solid = False
+    movers, about = 2, True
     gives_time = True
     guarantee = "a hit is a contact of faces to double rounding; as written nothing is promised about what it does not find"
     parameters = {
@@ -64,7 +66,7 @@ class OpposingFaceGeometry(Method):
         self.refuse(query)
         options = self._options()
         if self.in_pieces:
-            query = Query(query.question, _pieces(query.a), _pieces(query.b), query.pose_a, query.pose_b, query.motion)
+            query = replace(query, a=_pieces(query.a), b=_pieces(query.b))
         ask = ofg.prepare(query, **options)
         return lambda: Verdict(*ask())
 

@@ -11,7 +11,7 @@ from typing import Callable
 
 import numpy as np
 
-from ofg import Body, Query
+from ofg import Body, Pose, Query
 
 from .contract import MissingEngine, Unsupported, Verdict
 from .sampling import Discrete, Substeps
@@ -37,6 +37,7 @@ class Parry(Discrete):
     configuration = "default"
     bodies = frozenset({"convex", "union"})
     solid = True
+    places_b = True
     guarantee = "GJK in doubles"
 
     def shapes(self, body: Body) -> list:
@@ -47,11 +48,17 @@ class Parry(Discrete):
 
     def world(self, query: Query):
         group, a, b = _parry().CollisionGroup, self.shapes(query.a), self.shapes(query.b)
-        return _parry().CollisionWorld([group("a", a), group("b", b, is_static=True, transform=query.pose_b.matrix)])
+        rests = query.motion_b.rests
+        fixed = {"is_static": True, "transform": query.pose_b.matrix} if rests else {}
+        return _parry().CollisionWorld([group("a", a), group("b", b, **fixed)])
 
     def build(self, query: Query):
         check = self.world(query).check
-        return lambda pose: {"a": pose.matrix}, lambda at: check(at, PAIR)[0]
+
+        def place(*poses: Pose) -> dict:
+            return {name: pose.matrix for name, pose in zip("ab", poses)}
+
+        return place, lambda at: check(at, PAIR)[0]
 
 
 class ParryMesh(Parry):
@@ -72,7 +79,8 @@ class _Batch(Substeps):
 
     def asker(self, query: Query, place, check_any) -> Callable[[], Verdict]:
         n = self.parameters["n"]
-        poses = {"a": np.stack([query.motion.pose_at(query.pose_a, i / n).matrix for i in range(1, n + 1)])}
+        sides = zip(*(self.poses(query, i / n) for i in range(1, n + 1)))
+        poses = {name: np.stack([pose.matrix for pose in side]) for name, side in zip("ab", sides)}
 
         def ask() -> Verdict:
             first = check_any(poses, PAIR)

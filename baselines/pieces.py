@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Callable
 
 import ofg
@@ -20,7 +21,7 @@ class Decomposed:
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
-        return super().prepare(Query(query.question, _pieces(query.a), _pieces(query.b), query.pose_a, query.pose_b, query.motion))
+        return super().prepare(replace(query, a=_pieces(query.a), b=_pieces(query.b)))
 
 
 def _pieces(body: Body) -> Body:

@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import Any, Callable
+from typing import Any, Callable, ClassVar
 
 from ofg import Pose, Query
 
 from .contract import Method, Verdict
+from .frames import seen_from
 
-Place = Callable[[Pose], Any]  #: pose of A -> the engine's own form of it, made before the clock starts
-Test = Callable[[Any], bool]  #: placed pose of A -> do A and B overlap? B stays where it is
+#: pose of A (and of B, see `places_b`) -> the engine's own form, made before the clock starts
+Place = Callable[..., Any]
+Test = Callable[[Any], bool]  #: what `place` gave -> do A and B overlap?
 
 
 class Discrete(Method):
     """An engine that answers `overlap` at one pose. Subclasses write `build`."""
 
     questions = frozenset({"overlap"})
+    #: whether `place` takes B's pose as its second argument; it gets it where B moves. If not, B stays at
+    #: query.pose_b, and A is placed as B would see it
+    places_b: ClassVar[bool] = False
 
     @abstractmethod
     def build(self, query: Query) -> tuple[Place, Test]:
-        """Both bodies in the engine's form, B at query.pose_b."""
+        """Both bodies in the engine's form, B at query.pose_b unless `place` is told another pose."""
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
@@ -29,6 +34,14 @@ class Discrete(Method):
     def asker(self, query: Query, place: Place, test: Test) -> Callable[[], Verdict]:
         pose = place(query.pose_a)
         return lambda: Verdict(bool(test(pose)))
+
+    def poses(self, query: Query, t: float) -> tuple[Pose, ...]:
+        """What `place` is called with for time t of the step."""
+        pose_a = query.motion.pose_at(query.pose_a, t)
+        if query.motion_b.rests:
+            return (pose_a,)
+        pose_b = query.motion_b.pose_at(query.pose_b, t)
+        return (pose_a, pose_b) if self.places_b else (seen_from(pose_b, pose_a, query.pose_b),)
 
 
 class Substeps(Discrete):
@@ -41,6 +54,7 @@ class Substeps(Discrete):
 
     questions = frozenset({"translation", "motion"})
     gives_time = True
+    movers, about = 2, True
     parameters = {"n": 16}
     cheapest = {"n": 1}
 
@@ -55,7 +69,7 @@ class Substeps(Discrete):
 
     def asker(self, query: Query, place: Place, test: Test) -> Callable[[], Verdict]:
         n = self.parameters["n"]
-        samples = [(i / n, place(query.motion.pose_at(query.pose_a, i / n))) for i in range(1, n + 1)]
+        samples = [(i / n, place(*self.poses(query, i / n))) for i in range(1, n + 1)]
 
         def ask() -> Verdict:
             for time, pose in samples:

@@ -8,10 +8,11 @@ position, subtracted in double.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import lru_cache
 from typing import Callable, ClassVar
 
-from ofg import Body, Motion, Pose, Query
+from ofg import Body, Pose, Query
 
 from .contract import Verdict
 
@@ -27,12 +28,16 @@ class Normalised:
 
 
 def normalised(query: Query, length: float) -> Query:
-    """The same question in other units, with B at the origin. Times of impact are as they were."""
+    """The same question in other units, with B at the origin at the start. Times of impact are as they were."""
     unit = 2.0 ** round(math.log2(length / min(query.a.radius, query.b.radius)))
-    motion = query.motion
-    return Query(query.question, scaled(query.a, unit), scaled(query.b, unit),
-                 Pose(query.pose_a.quaternion, unit * (query.pose_a.position - query.pose_b.position)), Pose(query.pose_b.quaternion),
-                 Motion(unit * motion.displacement, motion.axis, motion.angle))
+    offset = query.pose_a.position - query.pose_b.position
+    pose_a, pose_b = Pose(query.pose_a.quaternion, unit * offset), Pose(query.pose_b.quaternion)
+    motion, motion_b = (
+        replace(m, displacement=unit * m.displacement, about=unit * m.about)
+        for m in (query.motion, query.motion_b)
+    )
+    a, b = scaled(query.a, unit), scaled(query.b, unit)
+    return replace(query, a=a, b=b, pose_a=pose_a, pose_b=pose_b, motion=motion, motion_b=motion_b)
 
 
 @lru_cache(maxsize=64)

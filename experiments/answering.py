@@ -80,7 +80,7 @@ def answer(method, case: Case, config: RunConfig) -> dict:
     try:
         start = perf_counter()
         with limit(config.build_seconds):
-            ask_it = method.prepare(case.query)
+            ask_it = method.ready(case.query)
         built = perf_counter()
         with limit(config.query_seconds):
             verdict = ask_it()

@@ -14,6 +14,9 @@ from .case import Case
 from .truth.label import Truth
 
 
+MOTION = tuple(f"{name}{side}" for side in ("", "_b") for name in ("displacement", "axis", "angle", "about"))
+
+
 def case_row(case: Case, truth: Truth, attempt: int) -> dict:
     """One row of cases.parquet. attempt: how many draws before this one were thrown away."""
     q = case.query

@@ -213,9 +213,9 @@ def _prepare(label: str, bin_: Bin, answered: set[str]) -> list[Call]:
     calls = []
     for case in (c for c in bin_.cases if c.id in answered):
         if len(calls) % 5 == 0:
-            calls.append(Call(label, FLOOR, 0, cheapest.prepare(floor_query(bin_.question))))
+            calls.append(Call(label, FLOOR, 0, cheapest.ready(floor_query(bin_.question))))
         start = perf_counter_ns()
-        ask = method.prepare(case.query)
+        ask = method.ready(case.query)
         calls.append(Call(label, case.id, perf_counter_ns() - start, ask))
     return calls
 

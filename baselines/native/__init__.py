@@ -1,6 +1,7 @@
 """The native lane: the libraries themselves, asked the same cases in one interleaved C++ loop.
 
 build() compiles what it finds; run(queries) times it. Bodies are convex (their hulls) or closed meshes; unions have no lane here.
+One body moves here: where both translate it is asked about A's motion relative to B.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ import numpy as np
 import pandas as pd
 
 from ofg import QUESTIONS, Query
+
+from ..frames import stated
 
 SOURCE = Path(__file__).parent
 FOLDER = SOURCE.parents[1] / "build" / "native"
@@ -49,7 +52,7 @@ def run(queries: list[Query], rounds: int = 15, warmup: int = 3, core: int | Non
     """A row per engine and query: engine (named as the method of the Python lane), case (index of the query), hit, time, build
     (nanoseconds, of the whole engine), and round0, round1, ...: nanoseconds, gross. The floor's rows are named FLOOR.
 
-    core: run on this one. ValueError for a union.
+    core: run on this one. ValueError for a union, Unsupported where both bodies turn.
     """
     if not (folder / "lane").is_file():
         raise NativeError("The native lane is not built; build it with: make native")
@@ -65,7 +68,7 @@ def write(path: Path, queries: list[Query]) -> None:
     """The case file that `main.cpp` reads: each body once, then a case per query. Little-endian, no padding."""
     bodies: dict[str, int] = {}
     blocks, cases = [], []
-    for query in queries:
+    for query in (stated(query, movers=1, about=False) for query in queries):
         for body in (query.a, query.b):
             if body.kind == "union":
                 raise ValueError(f"Body '{body.name}' is a union, which the native lane does not take; ask it about convex bodies and meshes.")

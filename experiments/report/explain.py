@@ -2,7 +2,8 @@
 
 The file (JSON): {"case": the row of cases.parquet, "bodies": its two rows of bodies.parquet (one where both are equal),
 "observations": rows of observations.parquet, may be missing}. A file written by hand needs of "case": question, body_a, body_b,
-and what is not at rest of quaternion_a, position_a, quaternion_b, position_b, displacement, axis, angle; of a body: body (any
+and what is not at rest of quaternion_a, position_a, quaternion_b, position_b, displacement, axis, angle, about (of A's
+motion; with "_b" behind, of B's); of a body: body (any
 name), kind, vertices, faces (flat lists; a convex body needs no faces; a union piece_vertices and piece_faces). Where it has no
 label the case is certified anew.
 """
@@ -73,7 +74,8 @@ def from_file(path: Path) -> Explained:
             made[row["body_b"]],
             _pose(row, "a"),
             _pose(row, "b"),
-            Motion(row.get("displacement", [0, 0, 0]), row.get("axis", [0, 0, 1]), row.get("angle", 0.0)),
+            _motion(row, ""),
+            _motion(row, "_b"),
         )
         case = Case(
             row.get("case", path.stem),
@@ -178,10 +180,27 @@ def command(name, run_, file, out, save_to, anew, methods, method_files, print_g
         rows,
         "Error: of the time of impact beyond its certified bracket, as a share of the step; positive is late." if sweep else "",
     )
+    if sweep:
+        say(f"A {motion_words(found.case.query.motion)}; B {motion_words(found.case.query.motion_b)}.")
     if save_to:
         save(found, save_to)
         say(f"The case is in {save_to}; show it anywhere with: ofg-bench explain --file {save_to}")
     say(f"The page is {page_path}.")
+
+
+def motion_words(motion: Motion) -> str:
+    """'moves by (0, 0, -2), turns by 1.5 rad about the axis (0, 0, 1) through its point (1, 0, 0)', or 'rests'."""
+
+    def numbers(v) -> str:
+        return f"({', '.join(f'{x:.6g}' for x in v)})"
+
+    if motion.rests:
+        return "rests"
+    words = [f"moves by {numbers(motion.displacement)}"] if motion.displacement.any() else []
+    if motion.angle:
+        point = f" through its point {numbers(motion.about)}" if motion.about.any() else ""
+        words.append(f"turns by {motion.angle:.6g} rad about the axis {numbers(motion.axis)}{point}")
+    return ", ".join(words)
 
 
 def _digits(value: float) -> str:
@@ -221,6 +240,11 @@ def _body(row: dict) -> Body:
 
 def _pose(row: dict, side: str) -> Pose:
     return Pose(row.get(f"quaternion_{side}", [1, 0, 0, 0]), row.get(f"position_{side}", [0, 0, 0]))
+
+
+def _motion(row: dict, side: str) -> Motion:
+    given = {name: row[name + side] for name in ("displacement", "axis", "angle", "about") if name + side in row}
+    return Motion(**given)
 
 
 def _tags(row: dict) -> dict:

@@ -6,6 +6,7 @@ import base64
 import gzip
 import json
 import math
+from dataclasses import replace
 from typing import Any, Iterable
 
 import numpy as np
@@ -13,12 +14,12 @@ import pandas as pd
 
 import ofg
 from baselines import registry
-from ofg import Body, Query
+from ofg import Body
 from ofg.decomposition import kept_at
 
 from .. import metrics, scenarios, tables
 from ..progress import stage
-from ..rows import cases_of
+from ..rows import MOTION, cases_of, filled
 from ..store import Store
 from ..timing import FLOOR, LOST, PROBE, SIZES, situation_of, size_of
 from . import selection
@@ -49,7 +50,7 @@ OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
 def of_run(store: Store, made_tables=None) -> dict:
     """Everything the page of a run shows; see page/data.js for its reading."""
-    rows, found = store.read("cases.parquet"), metrics.outcomes(store)
+    rows, found = filled(store.read("cases.parquet")), metrics.outcomes(store)
     made = {
         "mode": "run",
         "run": _run(store),
@@ -68,7 +69,7 @@ def of_run(store: Store, made_tables=None) -> dict:
 
 def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict) -> dict:
     """The same for one case: `row` is its row of cases.parquet, `observations` what methods said about it."""
-    rows = pd.DataFrame([row])
+    rows = filled(pd.DataFrame([row]))
     found = metrics.judge(observations, rows)
     made = {
         "mode": "case",
@@ -127,9 +128,7 @@ def _cases(rows: pd.DataFrame) -> dict:
         "reason",
         "size",
         "faces",
-        "displacement",
-        "axis",
-        "angle",
+        *MOTION,
         "quaternion_a",
         "position_a",
         "quaternion_b",
@@ -339,7 +338,7 @@ class Shapes:
                 pieces = [self._pieces(query.a), self._pieces(query.b)]
             except ofg.BodyError:
                 return None
-            query = Query(query.question, *pieces, query.pose_a, query.pose_b, query.motion)
+            query = replace(query, a=pieces[0], b=pieces[1])
         made = selection.trace(query, options, truth.t_hi)
         for side in ("a", "b"):
             made[f"n{side}"] = len(made[side])

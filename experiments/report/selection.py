@@ -12,7 +12,7 @@ import numpy as np
 import trimesh
 
 import ofg
-from ofg import Body, Query
+from ofg import Body, Motion, Pose, Query
 
 # shares of the step after the impact at which faces are looked for that meet
 AFTER = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 0.1)
@@ -84,11 +84,13 @@ def select(query: Query, a: Mesh, b: Mesh, window: tuple[float, float], chosen: 
     poses = [_relative(query, t) for t in times]
     reach_a = b.radius
     if chosen.adaptive_k:
-        far = np.linalg.norm(poses[0][1]) + np.linalg.norm(query.motion.displacement) * (window[1] - window[0])
-        reach_a += gap * _speed(query, 0.0, np.linalg.norm(b.centre), far)
+        r, p = poses[0]
+        pivots = r @ query.motion.about + p - query.motion_b.about
+        far = np.linalg.norm(pivots) + np.linalg.norm(_displacement(query)) * (window[1] - window[0])
+        reach_a += gap * _speed(query, 0.0, _arm(b.centre, query.motion_b), far)
     fa = _nearest(a, [r.T @ (b.centre - p) for r, p in poses], chosen, reach_a)
     centre, radius = _sphere(a, fa)
-    reach_b = radius + (gap * _speed(query, np.linalg.norm(centre), 0.0, far) if chosen.adaptive_k else 0.0)
+    reach_b = radius + (gap * _speed(query, _arm(centre, query.motion), 0.0, far) if chosen.adaptive_k else 0.0)
     return fa, _nearest(b, [r @ centre + p for r, p in poses], chosen, reach_b)
 
 
@@ -122,8 +124,14 @@ def _mesh(body: Body, piece: int) -> Mesh:
 
 def _relative(query: Query, t: float) -> tuple[np.ndarray, np.ndarray]:
     """A's frame in B's frame at time t: x_b = r x_a + p."""
-    at, rb = query.motion.pose_at(query.pose_a, t), query.pose_b.rotation
-    return rb.T @ at.rotation, rb.T @ (at.position - query.pose_b.position)
+    at, at_b = _poses(query, t)
+    rb = at_b.rotation
+    return rb.T @ at.rotation, rb.T @ (at.position - at_b.position)
+
+
+def _poses(query: Query, t: float) -> tuple[Pose, Pose]:
+    """Where A and B are at time t."""
+    return query.motion.pose_at(query.pose_a, t), query.motion_b.pose_at(query.pose_b, t)
 
 
 def _times(query: Query, a: Mesh, b: Mesh, window, chosen: _Options) -> tuple[list[float], float]:
@@ -143,12 +151,23 @@ def _times(query: Query, a: Mesh, b: Mesh, window, chosen: _Options) -> tuple[li
 
 def _between(query: Query, a: Mesh, b: Mesh, t: float) -> np.ndarray:
     """World vector from B's centre to A's."""
-    at = query.motion.pose_at(query.pose_a, t)
-    return at.rotation @ a.centre - query.pose_b.rotation @ b.centre + (at.position - query.pose_b.position)
+    at, at_b = _poses(query, t)
+    return at.rotation @ a.centre - at_b.rotation @ b.centre + (at.position - at_b.position)
+
+
+def _displacement(query: Query) -> np.ndarray:
+    """A's, relative to B."""
+    return query.motion.displacement - query.motion_b.displacement
+
+
+def _arm(point: np.ndarray, motion: Motion) -> float:
+    """From the point about which a body turns to another of its points."""
+    return np.linalg.norm(point - motion.about)
 
 
 def _speed(query: Query, distance_a: float, distance_b: float, apart: float) -> float:
-    return np.linalg.norm(query.motion.displacement) + abs(query.motion.angle) * (distance_a + distance_b + apart)
+    turned = abs(query.motion.angle) + abs(query.motion_b.angle)
+    return np.linalg.norm(_displacement(query)) + turned * (distance_a + distance_b + apart)
 
 
 def _distances(mesh: Mesh, point: np.ndarray, nearest: str) -> np.ndarray:
@@ -187,10 +206,16 @@ def _sphere(mesh: Mesh, faces: np.ndarray) -> tuple[np.ndarray, float]:
 
 
 def _parts(query: Query, a: Mesh, chosen: _Options) -> int:
-    angle = abs(query.motion.angle)
-    if not chosen.arc_tolerance or not angle:
+    wa, wb = abs(query.motion.angle), abs(query.motion_b.angle)
+    if not chosen.arc_tolerance or not wa + wb:
         return 1
-    return int(min(65536, max(1, np.ceil(angle * np.sqrt(a.body.radius / (8 * chosen.arc_tolerance * a.radius))))))
+    bend = wa * np.sqrt(a.body.radius)
+    if wb:  # how B's turn bends the paths that A's vertices take in B's frame
+        v = np.linalg.norm(_displacement(query))
+        apart = np.linalg.norm(query.pose_a.position - query.pose_b.position) + v
+        own = a.body.radius
+        bend = np.sqrt(wa**2 * own + 2 * wb * (wa * own + v) + wb**2 * (apart + own))
+    return int(min(65536, max(1, np.ceil(bend / np.sqrt(8 * chosen.arc_tolerance * a.radius)))))
 
 
 def _stopped(query, a, b, fa, fb, moving, chosen) -> str:
@@ -199,7 +224,8 @@ def _stopped(query, a, b, fa, fb, moving, chosen) -> str:
     step = end - start if moving and chosen.broad == "swept" else np.zeros(3)
     along = step @ step
     closest = start + step * (min(1.0, max(0.0, -(start @ step) / along)) if along > 0 else 0.0)
-    stray = np.linalg.norm(a.centre) * min(query.motion.angle**2 / 8, 2.0) if moving and chosen.broad == "swept" else 0.0
+    sides = ((a, query.motion), (b, query.motion_b)) if moving and chosen.broad == "swept" else ()
+    stray = sum(_arm(mesh.centre, motion) * min(motion.angle**2 / 8, 2.0) for mesh, motion in sides)
     if np.linalg.norm(closest) > a.radius + b.radius + stray:
         return "step 1: the bounding spheres are apart" + (" at the start pose" if moving and chosen.broad == "start" else "")
     if not moving:
@@ -213,7 +239,7 @@ def _should(query: Query, a: Mesh, b: Mesh, chosen: _Options, window, impact: fl
     """Two faces that meet at the impact or soon after, and their places in the order by distance."""
     for later in AFTER if query.question != "overlap" else (0.0,):
         t = min(impact + later, 1.0)
-        met = ofg.brute_force(Query("overlap", query.a, query.b, query.motion.pose_at(query.pose_a, t), query.pose_b))
+        met = ofg.brute_force(Query("overlap", query.a, query.b, *_poses(query, t)))
         if met.hit:
             return {"time": t, "faces": list(met.faces), "places": _places(query, a, b, chosen, window, met.faces)}
     return None

@@ -204,8 +204,11 @@ def in_world(rng, draft: Draft, offset: float = 1.0) -> Draft:
         turned = multiply(q, pose.quaternion)
         return Pose(turned / np.linalg.norm(turned), r @ pose.position + shift)
 
-    motion = replace(draft.motion, displacement=r @ draft.motion.displacement, axis=r @ draft.motion.axis)
-    return Draft(draft.a, draft.b, moved(draft.pose_a), moved(draft.pose_b), motion, {**(draft.tags or {}), "aligned": aligned})
+    def turned(motion: Motion) -> Motion:
+        return replace(motion, displacement=r @ motion.displacement, axis=r @ motion.axis)
+
+    return replace(draft, pose_a=moved(draft.pose_a), pose_b=moved(draft.pose_b), motion=turned(draft.motion),
+                   motion_b=turned(draft.motion_b), tags={**(draft.tags or {}), "aligned": aligned})
 
 
 def flight_through(rng, level: float) -> Draft:

@@ -42,6 +42,7 @@ class View:
 
 
 VIEWS = {
+    "both_moving": View(1.5, {"place": "onto", "turns about": "centre"}, (0.6, -0.8, 2.0), which=1),
     "concave_rotation": View(1.0, {"kind": "frame about a peg"}, (0.6, -0.8, 2.0)),
     "contact": View(30.0, {"place": "onto", "feature": "vertex-face"}, which=10),
     "contained": View(0.5, {"place": "inside"}, which=3),
@@ -116,17 +117,21 @@ def draw(name: str, path: Path) -> None:
 
 def _panel(ax, case: Case, screen: np.ndarray, zoom: float) -> None:
     q = case.query
-    moving = bool(q.motion.angle or q.motion.displacement.any())
-    times = np.linspace(0, 1, 9 if q.motion.angle > 1 else 5)[1:] if moving else []
+    sides = ((q.b, q.pose_b, q.motion_b, ORANGE), (q.a, q.pose_a, q.motion, BLUE))
+    movers = [side for side in sides if not side[2].rests]
 
     def place(body: Body, pose: Pose) -> np.ndarray:  # relative to B, which may be far from the origin
         return Pose(pose.quaternion, pose.position - q.pose_b.position).apply(body.vertices) @ screen.T
 
-    bodies = [(q.b, place(q.b, q.pose_b), ORANGE), (q.a, place(q.a, q.pose_a), BLUE)]
-    ghosts = [(q.a, place(q.a, q.motion.pose_at(q.pose_a, t)), BLUE) for t in times]
-    start = screen @ (q.pose_a.position - q.pose_b.position)
-    arc = start + _arc(q.motion, q.a.radius) @ screen.T if q.motion.angle else start[None]
-    every = np.concatenate([v[:, :2] for _, v, _ in bodies + ghosts] + [arc[:, :2]])
+    bodies = [(body, place(body, pose), colour) for body, pose, _, colour in sides]
+    ghosts = [(body, place(body, motion.pose_at(pose, t)), colour) for body, pose, motion, colour in movers
+              for t in np.linspace(0, 1, 9 if motion.angle > 1 else 5)[1:]]
+    tracks = []  # of each mover: where its arrow begins, and its arc
+    for body, pose, motion, _ in movers:
+        start = screen @ (pose.apply(motion.about[None])[0] - q.pose_b.position)
+        turn = _arc(motion, body.radius) @ screen.T
+        tracks.append((motion, start, start + turn if motion.angle else start[None]))
+    every = np.concatenate([v[:, :2] for _, v, _ in bodies + ghosts] + [arc[:, :2] for *_, arc in tracks])
     low, high = every.min(axis=0), every.max(axis=0)
     middle, half = (low + high) / 2, 0.54 * max((high - low) / PANEL) * np.array(PANEL)
     if zoom:
@@ -134,8 +139,8 @@ def _panel(ax, case: Case, screen: np.ndarray, zoom: float) -> None:
     corner, step = middle - half, 2 * half[0] / (PANEL[0] * DPI * FINE)
     image = _render(bodies, ghosts, corner, step)
     ax.imshow(image, origin="lower", extent=np.stack([middle - half, middle + half], axis=1).ravel(), interpolation="antialiased")
-    if moving:
-        _arrows(ax, q.motion, start, arc, screen)
+    for motion, start, arc in tracks:
+        _arrows(ax, motion, start, arc, screen)
     ax.set(xlim=middle[0] + half[0] * np.array([-1, 1]), ylim=middle[1] + half[1] * np.array([-1, 1]), aspect="equal")
     ax.axis("off")
 

@@ -12,15 +12,15 @@ from . import scenarios
 FOLDER = Path(__file__).parent
 QUESTIONS = {
     "overlap": "Do the two bodies overlap at the given poses?",
-    "translation": "Do they meet while A moves in a straight line, and when?",
-    "motion": "Do they meet while A turns about its own centre and moves, and when?",
+    "translation": "Do they meet while they move in straight lines, and when?",
+    "motion": "Do they meet while they turn and move, and when?",
 }
 HEAD = """\
 # Scenario families
 
 Made by `python -m experiments.scenarios.page` from the scenarios in this folder; the pictures by
-`python -m experiments.scenarios.draw experiments/scenarios/figures`. A is blue, B is orange; of a moving A the later
-places are pale, a straight arrow is its displacement and a curved one its turn.
+`python -m experiments.scenarios.draw experiments/scenarios/figures`. A is blue, B is orange; the later places of a body
+that moves are pale, a straight arrow is its displacement and a curved one its turn.
 
 A family is one file. It draws two bodies and a motion at a level of difficulty, and *aims*: at a gap, a feature, a time. What
 the right answer is, it does not say: that is certified afterwards, by `experiments/truth`. Every number of a case

@@ -81,4 +81,37 @@ class Mute(Aligned):
         return super().prepare(query)
 
 
-METHODS = [Aligned, Never, Fickle, Careless, Late, Aborting, Mute]
+class OneEyed(Late):
+    """Says that it knows two movers, and reads A's motion alone."""
+
+    name = "faulty-one-eyed"
+    movers, about = 2, True
+    time_error = float("nan")
+
+    def prepare(self, query):
+        self.refuse(query)
+        start, reach = query.pose_a.position - query.pose_b.position, query.motion.displacement
+        met = start[0] < -2 and abs(start[1]) < 2 and start[0] + reach[0] > -2
+        return lambda: Verdict(True, (-2 - start[0]) / reach[0]) if met else Verdict(False)
+
+
+class Unaware(OneEyed):
+    """The same without a word about movers, as one writes who never heard of motion_b."""
+
+    name = "faulty-unaware"
+    movers, about = Aligned.movers, Aligned.about
+
+
+class Spinning(Aligned):
+    """Sees no turn."""
+
+    name = "faulty-spinning"
+    questions = frozenset({"motion"})
+    movers, about = 2, True
+
+    def prepare(self, query):
+        self.refuse(query)
+        return lambda: Verdict(False)
+
+
+METHODS = [OneEyed, Unaware, Spinning, Aligned, Never, Fickle, Careless, Late, Aborting, Mute]

@@ -5,12 +5,14 @@ import os
 import shutil
 import struct
 import subprocess
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from baselines import native, registry
 from baselines.conformance import body, overlap, sweep
+from baselines.contract import Unsupported
 from ofg import Motion, Pose, Query
 
 COMPILER = shutil.which("c++")
@@ -86,3 +88,14 @@ def test_what_the_lane_does_not_take(folder, tmp_path):
     shutil.copy(folder / "lane", tmp_path / "lane")
     with pytest.raises(native.NativeError, match="does not open"):
         native.run(queries(), folder=tmp_path)
+
+
+def test_the_lane_is_asked_about_relative_motion(tmp_path):
+    alone = sweep("translation", "convex", (-5, 0.3, 0.1), (10, 0, 0))
+    both = replace(alone, motion=Motion((4, 1, 0)), motion_b=Motion((-6, 1, 0)))
+    for name, query in (("alone", alone), ("both", both)):
+        native.write(tmp_path / name, [query])
+    assert (tmp_path / "alone").read_bytes() == (tmp_path / "both").read_bytes()
+    turning = replace(alone, question="motion", motion=Motion(angle=1), motion_b=Motion(angle=1))
+    with pytest.raises(Unsupported, match="both bodies turn"):
+        native.write(tmp_path / "none", [turning])

@@ -16,6 +16,9 @@ FAULTY = Path(__file__).with_name("faulty.py")
     ("faulty-careless", "refuses what it does not declare", "does not raise Unsupported"),
     ("faulty-mute", "refuses what it does not declare", "without a reason"),
     ("faulty-late", "meets a head-on sweep at its time", "more than 0.01"),
+    ("faulty-one-eyed", "meets what moves towards it", "missed"),
+    ("faulty-spinning", "sees what B meets as it turns", "B by 1.0472: answered clear"),
+    ("faulty-spinning", "turns about the point that it is told", "A turns about (-10, 0, 0)"),
     ("faulty-aborting", "far apart is clear, deep overlap is a hit", "SIGABRT"),
 ])
 def test_fault_is_found(name, title, word):
@@ -24,6 +27,11 @@ def test_fault_is_found(name, title, word):
     ok, detail = found[title]
     assert not ok and word in detail
     assert len(found) == len(conformance.PROPERTIES)  # a process that died did not cost the other properties
+
+
+def test_a_method_that_never_heard_of_b_moving_is_right_about_it():
+    found = {t: (ok, detail) for t, ok, detail in conformance.check(registry.load_file(FAULTY)["faulty-unaware"]())}
+    assert found["meets what moves towards it"] == (True, "")
 
 
 def test_nothing_else_is_found():

@@ -1,122 +1,4 @@
 // Both bodies of one case in 3D, at any time of the step. Positions are taken in doubles about the middle of the scene, and only then drawn.
-const rotation = ([w, x, y, z]) => {
-  const s = w * w + x * x + y * y + z * z;
-  return [
-    (w * w + x * x - y * y - z * z) / s,
-    (2 * (x * y - w * z)) / s,
-    (2 * (x * z + w * y)) / s,
-    (2 * (x * y + w * z)) / s,
-    (w * w - x * x + y * y - z * z) / s,
-    (2 * (y * z - w * x)) / s,
-    (2 * (x * z - w * y)) / s,
-    (2 * (y * z + w * x)) / s,
-    (w * w - x * x - y * y + z * z) / s,
-  ];
-};
-const turned = (k, angle) => {
-  const l = Math.hypot(...k) || 1,
-    s = Math.sin(angle / 2) / l;
-  return rotation([Math.cos(angle / 2), s * k[0], s * k[1], s * k[2]]);
-};
-const mul3 = (A, B) => {
-  const C = [];
-  for (let i = 0; i < 3; i++)
-    for (let j = 0; j < 3; j++) C.push(A[3 * i] * B[j] + A[3 * i + 1] * B[3 + j] + A[3 * i + 2] * B[6 + j]);
-  return C;
-};
-const apply = (R, v) => [
-  R[0] * v[0] + R[1] * v[1] + R[2] * v[2],
-  R[3] * v[0] + R[4] * v[1] + R[5] * v[2],
-  R[6] * v[0] + R[7] * v[1] + R[8] * v[2],
-];
-const applyT = (R, v) => [
-  R[0] * v[0] + R[3] * v[1] + R[6] * v[2],
-  R[1] * v[0] + R[4] * v[1] + R[7] * v[2],
-  R[2] * v[0] + R[5] * v[1] + R[8] * v[2],
-];
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2],
-  norm = (a) => Math.hypot(a[0], a[1], a[2]);
-const plus = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]],
-  cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const unit = (a) => {
-  const l = norm(a) || 1;
-  return [a[0] / l, a[1] / l, a[2] / l];
-};
-
-// A case's geometry without any drawing: poses, the plane of its certificate at a time.
-async function geometryOf(i) {
-  const c = D.cases,
-    [ia, ib] = D.drawn[i],
-    a = await body(ia),
-    b = await body(ib);
-  const RA = rotation(c.quaternion_a[i]),
-    RB = rotation(c.quaternion_b[i]),
-    d = c.displacement[i],
-    k = c.axis[i],
-    theta = c.angle[i],
-    moving = c.question[i] !== "overlap";
-  const dp = plus(c.position_b[i], c.position_a[i], -1); // exact enough: both are float32 numbers
-  // relative to p_A
-  const poseA = (t) => ({
-    R: theta && t ? mul3(turned(k, theta * t), RA) : RA,
-    p: moving ? [d[0] * t, d[1] * t, d[2] * t] : [0, 0, 0],
-  });
-  const poseB = { R: RB, p: dp };
-  return { i, a, b, poseA, poseB, k, theta, moving, origin: c.position_a[i], proof: D.proofs[i] || {} };
-}
-
-function elementVertices(bodyOf, order, from, to) {
-  if (to === null || bodyOf.kind === "convex") return null;
-  const found = new Set();
-  let offsets;
-  if (bodyOf.pieces) {
-    offsets = [0];
-    for (const [n] of bodyOf.pieces) offsets.push(offsets.at(-1) + n);
-  }
-  for (let j = from; j < to; j++) {
-    const e = order ? order[j] : j;
-    if (bodyOf.pieces) for (let v = offsets[e]; v < offsets[e + 1]; v++) found.add(v);
-    else for (let q = 0; q < 3; q++) found.add(bodyOf.faces[3 * e + q]);
-  }
-  return found;
-}
-
-// The tightest plane of the proof at time t: normal, middle, clearance, which elements; relative to p_A. null where none is for t.
-function planeAt(g, proof, t) {
-  if (!proof?.leaves) return null;
-  let best = null,
-    count = 0;
-  const A = g.poseA(t),
-    RT = g.theta && t ? turned(g.k, g.theta * t) : null;
-  for (const leaf of proof.leaves) {
-    const [s, e, frame, nx, ny, nz, a0, a1, b0, b1] = leaf;
-    if (t < s || t > e) continue;
-    count++;
-    const n = unit(frame === "A" && RT ? apply(RT, [nx, ny, nz]) : [nx, ny, nz]);
-    ((leaf.va ||= elementVertices(g.a, proof.order_a, a0, a1) || "all"),
-      (leaf.vb ||= elementVertices(g.b, proof.order_b, b0, b1) || "all"));
-    const top = extreme(g.a, leaf.va, A, n, 1),
-      bottom = extreme(g.b, leaf.vb, g.poseB, n, -1),
-      gap = bottom.value - top.value;
-    if (!best || gap < best.gap) best = { n, gap, top, bottom, middle: (top.value + bottom.value) / 2, frame, leaf };
-  }
-  return best && { ...best, count };
-}
-
-function extreme(bodyOf, which, pose, n, sign) {
-  const local = applyT(pose.R, n),
-    v = bodyOf.vertices;
-  let value = -Infinity,
-    at = 0;
-  const look = (j) => {
-    const f = sign * (local[0] * v[3 * j] + local[1] * v[3 * j + 1] + local[2] * v[3 * j + 2]);
-    if (f > value) ((value = f), (at = j));
-  };
-  if (which === "all") for (let j = 0, m = v.length / 3; j < m; j++) look(j);
-  else which.forEach(look);
-  return { value: sign * value + dot(pose.p, n), point: plus(apply(pose.R, [v[3 * at], v[3 * at + 1], v[3 * at + 2]]), pose.p) };
-}
-
 const MANY = 6000; // faces from which the edges of a body are not drawn
 
 class BodyScene {
@@ -170,7 +52,7 @@ class BodyScene {
     if (overlay) this.seen = [await body(overlay.bodies[0]), await body(overlay.bodies[1])];
     const ends = !g.moving
       ? [0]
-      : g.theta
+      : g.turns
         ? [...Array(49).keys()].map((j) => j / 48 + (j % 48 ? 0.003 * Math.sin(7 * j) : 0))
         : [0, 1]; // uneven: full turns come back
     const low = [Infinity, Infinity, Infinity],
@@ -179,11 +61,13 @@ class BodyScene {
       for (let k = 0; k < 3; k++) ((low[k] = Math.min(low[k], p[k])), (high[k] = Math.max(high[k], p[k])));
     };
     for (const t of ends)
-      corners(g.a).forEach((v) => {
-        const P = g.poseA(t);
-        grow(plus(apply(P.R, v), P.p));
-      });
-    corners(g.b).forEach((v) => grow(plus(apply(g.poseB.R, v), g.poseB.p)));
+      for (const [bodyOf, path] of [
+        [g.a, g.A],
+        [g.b, g.B],
+      ]) {
+        const P = path.pose(t);
+        corners(bodyOf).forEach((v) => grow(plus(apply(P.R, v), P.p)));
+      }
     this.middle = plus(low, high).map((x) => x / 2);
     this.size = norm(plus(high, low, -1)) / 2 || 1;
     this.build();
@@ -221,17 +105,16 @@ class BodyScene {
       o = this.options;
     this.clear(this.root);
     this.movers = [];
-    const add = (object, moves) => {
+    const add = (object, path) => {
+      // path: whose pose it follows; null: it keeps the one that it is given
       object.matrixAutoUpdate = false;
       this.root.add(object);
-      if (moves) this.movers.push(object);
-      else object.matrix.copy(this.place(g.poseB));
-      object.updateMatrixWorld(true);
+      if (path) this.movers.push([object, path]);
       return object;
     };
-    for (const [bodyOf, shade, moves] of [
-      [g.a, a, true],
-      [g.b, b, false],
+    for (const [bodyOf, shade, path] of [
+      [g.a, a, g.A],
+      [g.b, b, g.B],
     ]) {
       const shape = this.geometry(bodyOf);
       add(
@@ -249,17 +132,18 @@ class BodyScene {
             polygonOffsetUnits: 1,
           }),
         ),
-        moves,
+        path,
       );
       if (bodyOf.faces.length / 3 <= MANY) {
         const edges = new T.EdgesGeometry(shape, 2);
-        add(new T.LineSegments(edges, new T.LineBasicMaterial({ color: shade.clone().lerp(ink, 0.25) })), moves);
-        if (moves && g.moving && o.ghosts)
+        add(new T.LineSegments(edges, new T.LineBasicMaterial({ color: shade.clone().lerp(ink, 0.25) })), path);
+        if (path.moves && o.ghosts)
           for (const t of [0, 1]) {
             const ghost = add(
               new T.LineSegments(edges, new T.LineBasicMaterial({ color: shade, transparent: true, opacity: 0.3 })),
+              null,
             );
-            ghost.matrix.copy(this.place(g.poseA(t)));
+            ghost.matrix.copy(this.place(path.pose(t)));
             ghost.updateMatrixWorld(true);
           }
       }
@@ -267,7 +151,7 @@ class BodyScene {
     if (this.overlay && o.selections) {
       const [sa, sb] = this.seen,
         x = this.overlay;
-      const paint = (bodyOf, faces, shade, opacity, moves, rank) => {
+      const paint = (bodyOf, faces, shade, opacity, path, rank) => {
         if (!faces.length) return;
         const m = add(
           new T.Mesh(
@@ -283,7 +167,7 @@ class BodyScene {
               polygonOffsetUnits: -rank,
             }),
           ),
-          moves,
+          path,
         );
         m.renderOrder = 2 + rank;
         const positions = m.geometry.getAttribute("position").array,
@@ -294,23 +178,21 @@ class BodyScene {
               ...positions.slice(j + 3 * q, j + 3 * q + 3),
               ...positions.slice(j + 3 * ((q + 1) % 3), j + 3 * ((q + 1) % 3) + 3),
             );
-        add(this.thick(segments, shade, rank > 1 ? 2.6 : 1.4, 1), moves).renderOrder = 3 + rank;
+        add(this.thick(segments, shade, rank > 1 ? 2.6 : 1.4, 1), path).renderOrder = 3 + rank;
       };
-      paint(sa, x.a, a, 0.75, true, 1);
-      paint(sb, x.b, b, 0.75, false, 1);
+      paint(sa, x.a, a, 0.75, g.A, 1);
+      paint(sb, x.b, b, 0.75, g.B, 1);
       if (x.should) {
-        paint(sa, [x.should.faces[0]], should, 0.9, true, 2);
-        paint(sb, [x.should.faces[1]], should, 0.9, false, 2);
+        paint(sa, [x.should.faces[0]], should, 0.9, g.A, 2);
+        paint(sb, [x.should.faces[1]], should, 0.9, g.B, 2);
       }
       if (x.met) {
-        paint(sa, [x.met[0]], met, 0.9, true, 2);
-        paint(sb, [x.met[1]], met, 0.9, false, 2);
+        paint(sa, [x.met[0]], met, 0.9, g.A, 2);
+        paint(sb, [x.met[1]], met, 0.9, g.B, 2);
       }
       if (g.moving) {
-        const [t0, t1] = x.window,
-          lines = this.chords(sa, x.a, g.poseA(t0), g.poseA(t1));
-        this.root.add(this.thick(lines, chosen, 1.6, 0.85));
-        if (x.vertices_b) this.root.add(this.thick(this.chordsOfB(sb, x.b, g.poseA(t0), g.poseA(t1)), b, 1.2, 0.7));
+        this.root.add(this.thick(this.chords(sa, x.a, g.poseA, g.poseB, x.window), chosen, 1.6, 0.85));
+        if (x.vertices_b) this.root.add(this.thick(this.chords(sb, x.b, g.poseB, g.poseA, x.window), b, 1.2, 0.7));
       }
     }
     this.plane = new T.Group();
@@ -333,29 +215,15 @@ class BodyScene {
     return made;
   }
 
-  chords(bodyOf, faces, P, Q) {
-    const lines = [];
-    for (const v of new Set(faces.flatMap((f) => [0, 1, 2].map((q) => bodyOf.faces[3 * f + q])))) {
-      const x = [0, 1, 2].map((k) => bodyOf.vertices[3 * v + k]);
-      lines.push(...this.point(plus(apply(P.R, x), P.p)), ...this.point(plus(apply(Q.R, x), Q.p)));
-    }
-    return lines;
-  }
-
-  chordsOfB(bodyOf, faces, P, Q) {
-    // as A sees them at the window's start
+  // Virtual edges of one body as the other sees them, the other where it is at the window's start.
+  chords(bodyOf, faces, own, other, [t0, t1]) {
     const lines = [],
-      B = this.g.poseB;
+      [P, Q] = [own(t0), own(t1)],
+      [S, E] = [other(t0), other(t1)];
     for (const v of new Set(faces.flatMap((f) => [0, 1, 2].map((q) => bodyOf.faces[3 * f + q])))) {
-      const world = plus(
-          apply(
-            B.R,
-            [0, 1, 2].map((k) => bodyOf.vertices[3 * v + k]),
-          ),
-          B.p,
-        ),
-        inA = applyT(Q.R, plus(world, Q.p, -1));
-      lines.push(...this.point(world), ...this.point(plus(apply(P.R, inA), P.p)));
+      const x = [0, 1, 2].map((k) => bodyOf.vertices[3 * v + k]),
+        seen = applyT(E.R, plus(plus(apply(Q.R, x), Q.p), E.p, -1));
+      lines.push(...this.point(plus(apply(P.R, x), P.p)), ...this.point(plus(apply(S.R, seen), S.p)));
     }
     return lines;
   }
@@ -364,10 +232,9 @@ class BodyScene {
   time(t) {
     this.t = t;
     const g = this.g,
-      T = THREE,
-      pose = this.place(g.poseA(g.moving ? t : 0));
-    for (const mover of this.movers) {
-      mover.matrix.copy(pose);
+      at = new Map([g.A, g.B].map((path) => [path, this.place(path.pose(t))]));
+    for (const [mover, path] of this.movers) {
+      mover.matrix.copy(at.get(path));
       mover.updateMatrixWorld(true);
     }
     this.clear(this.plane);
@@ -451,7 +318,8 @@ class BodyScene {
       c = D.cases,
       t = c.t_lo[g.i] ?? 0,
       found = planeAt(g, g.proof.clear, t);
-    const n = found ? found.n : norm(c.displacement[g.i]) ? unit(c.displacement[g.i]) : [1, 0, 0];
+    const d = plus(c.displacement[g.i], c.displacement_b[g.i], -1),
+      n = found ? found.n : norm(d) ? unit(d) : [1, 0, 0];
     let side = cross(n, [0, 0, 1]);
     if (norm(side) < 0.2) side = cross(n, [0, 1, 0]);
     const direction = unit(
@@ -467,9 +335,9 @@ class BodyScene {
     );
     let target = [0, 0, 0],
       reach = 1;
-    const A = g.poseA(g.moving ? this.t || 0 : 0);
+    const now = g.moving ? this.t || 0 : 0;
     if (what === "a" || what === "b") {
-      const [one, pose] = what === "a" ? [g.a, A] : [g.b, g.poseB];
+      const [one, pose] = what === "a" ? [g.a, g.poseA(now)] : [g.b, g.poseB(now)];
       const [m, r] = ball(one);
       ((target = this.point(plus(apply(pose.R, m), pose.p))), (reach = r / this.size));
     }
@@ -539,25 +407,3 @@ class BodyScene {
     this.renderer.forceContextLoss();
   }
 }
-
-function corners(bodyOf) {
-  // the eight corners of its box, kept
-  return (bodyOf.box ||= (() => {
-    const low = [Infinity, Infinity, Infinity],
-      high = [-Infinity, -Infinity, -Infinity],
-      v = bodyOf.vertices;
-    for (let j = 0; j < v.length; j++) {
-      const k = j % 3;
-      if (v[j] < low[k]) low[k] = v[j];
-      if (v[j] > high[k]) high[k] = v[j];
-    }
-    const all = [];
-    for (let q = 0; q < 8; q++) all.push([q & 1 ? high[0] : low[0], q & 2 ? high[1] : low[1], q & 4 ? high[2] : low[2]]);
-    return all;
-  })());
-}
-const ball = (bodyOf) => {
-  const q = corners(bodyOf);
-  return [plus(q[0], q[7]).map((x) => x / 2), norm(plus(q[7], q[0], -1)) / 2];
-};
-const radius = (bodyOf) => ball(bodyOf)[1];

@@ -11,6 +11,9 @@ import pytest
 
 from experiments import metrics
 from experiments.report import explain, report
+from experiments.rows import case_row
+from experiments.scenarios import get
+from experiments.truth.label import Truth
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
 
@@ -266,3 +269,24 @@ def test_one_case_from_a_run_and_from_a_file(open_page, run, found, tmp_path):
     assert dict(verdicts) == dict(zip(part.method, part.outcome))
     page.click(".jumps button:text('start')")
     assert "separates them" in page.inner_text(".said")
+
+
+def test_both_bodies_are_where_their_motions_put_them(open_page, tmp_path):
+    """Both turn about points of theirs; the page's poses are Python's, relative to A's start."""
+    case = get("both_moving").case(2004, 1.5, 1)
+    assert case.tags["turns about"] == "point"
+    truth = Truth("clear", start="clear", end="clear")
+    said = pd.DataFrame(columns=explain.COLUMNS).astype({"hit": "boolean", "time": float})
+    made = explain.Explained(case, truth, case_row(case, truth, 0), said)
+    (tmp_path / "case.html").write_text(explain.page(made, {}))
+    page = open_page(tmp_path / "case.html")
+    q = case.query
+    for t in (0.0, 0.3, 1.0):
+        seen = page.evaluate(f"geometryOf(0).then((g) => [g.poseA({t}), g.poseB({t})])")
+        poses = q.motion.pose_at(q.pose_a, t), q.motion_b.pose_at(q.pose_b, t)
+        for js, pose in zip(seen, poses):
+            np.testing.assert_allclose(np.reshape(js["R"], (3, 3)), pose.rotation, atol=1e-14)
+            np.testing.assert_allclose(js["p"], pose.position - q.pose_a.position, atol=1e-13)
+    legend = page.inner_text(".legend")
+    assert "A, moving" in legend and "B, moving" in legend
+    assert page.inner_text(".facts").count("about its point") == 2

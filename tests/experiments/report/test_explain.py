@@ -7,10 +7,14 @@ import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
+from experiments.case import Case
 from experiments.cli import app
 from experiments.config import ConfigError
 from experiments.report import explain
+from experiments.rows import case_row
 from experiments.store import StoreError
+from experiments.truth.label import Truth
+from ofg import Body, Motion, Pose, Query
 
 CUBE = [[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]
 HAND = {
@@ -84,3 +88,22 @@ def test_what_is_not_there_is_said(run, tmp_path):
     (tmp_path / "bad.json").write_text("{")
     with pytest.raises(ConfigError, match="not valid JSON"):
         explain.from_file(tmp_path / "bad.json")
+
+
+def test_a_motion_in_words():
+    assert explain.motion_words(Motion()) == "rests"
+    turning = Motion((0, 0, -2), (0, 0, 1), 1.5, (1, 0, 0))
+    assert explain.motion_words(turning) == (
+        "moves by (0, 0, -2), turns by 1.5 rad about the axis (0, 0, 1) through its point (1, 0, 0)"
+    )
+
+
+def test_a_file_keeps_both_motions(tmp_path):
+    cube, turning = Body.convex(np.array(list(np.ndindex(2, 2, 2)), float)), Motion((1, 0, 0), angle=2.0, about=(0, 1, 0))
+    query = Query("motion", cube, cube, Pose(), Pose(position=(5, 0, 0)), Motion((0, 1, 0)), turning)
+    case, truth = Case("mine/1/0000", "mine", 1.0, 0, query), Truth("clear", start="clear", end="clear")
+    said = pd.DataFrame(columns=explain.COLUMNS).astype({"hit": "boolean", "time": float})
+    explain.save(explain.Explained(case, truth, case_row(case, truth, 0), said), tmp_path / "case.json")
+    back = explain.from_file(tmp_path / "case.json").case.query
+    assert explain.motion_words(back.motion) == explain.motion_words(query.motion)
+    assert explain.motion_words(back.motion_b) == explain.motion_words(query.motion_b)

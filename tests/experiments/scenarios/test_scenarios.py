@@ -17,9 +17,9 @@ EVERY_LEVEL = [pytest.param(s, level, id=f"{s.name}/{level:g}") for s in FAMILIE
 
 def parts(query):
     """Every number of a query, to compare two."""
-    m = query.motion
-    arrays = [query.pose_a.quaternion, query.pose_a.position, query.pose_b.quaternion, query.pose_b.position, m.displacement,
-              m.axis, [m.angle]]
+    arrays = [query.pose_a.quaternion, query.pose_a.position, query.pose_b.quaternion, query.pose_b.position]
+    for m in (query.motion, query.motion_b):
+        arrays += [m.displacement, m.axis, [m.angle], m.about]
     return query.question, query.a.digest, query.b.digest, np.concatenate(arrays).tolist()
 
 
