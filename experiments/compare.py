@@ -16,7 +16,7 @@ SAME_TIME = 1e-9  # of the step: reported times of impact that differ by less ar
 # when AVX was masked); such a case is another question, and its answers are not compared.
 INPUT = ("body_a", "body_b", "quaternion_a", "position_a", "quaternion_b", "position_b", "displacement", "axis", "angle", "about", "displacement_b", "axis_b",
          "angle_b", "about_b")
-REFERENCE = (*INPUT, "case", "scenario", "level", "question", "size", "faces", "tags", "label", "t_lo", "t_hi", "start", "end", "gap", "certificate")
+REFERENCE = (*INPUT, "precision", "case", "scenario", "level", "question", "size", "faces", "tags", "label", "t_lo", "t_hi", "start", "end", "gap", "certificate")
 
 
 @dataclass(frozen=True)

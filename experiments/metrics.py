@@ -8,6 +8,7 @@ from scipy.stats import binomtest
 
 from baselines import registry
 
+from .rows import filled
 from .store import Store
 from .timing import FLOOR, LOST, PROBE
 
@@ -27,6 +28,7 @@ def outcomes(store: Store) -> pd.DataFrame:
 
 def judge(observations: pd.DataFrame, cases: pd.DataFrame) -> pd.DataFrame:
     """`outcomes` for rows of observations.parquet and of cases.parquet."""
+    cases = filled(cases)
     table = observations.merge(cases.drop(columns=["certificate"]), on="case", how="left", validate="many_to_one")
     answered, hit = table.status == "ok", table.hit.fillna(False).astype(bool)
     margin = table.method.map(margins(table.method.unique()))
@@ -43,6 +45,20 @@ def judge(observations: pd.DataFrame, cases: pd.DataFrame) -> pd.DataFrame:
     table["error"] = (late + early).where(timed)
     table["relative_gap"] = table.gap / table["size"]
     return table
+
+
+def out_of_their_depth(table: pd.DataFrame) -> set[str]:
+    """Labels of single-precision methods that answered cases given in double precision."""
+    asked = table[(table.precision == "float64") & (table.status == "ok")].method.unique()
+    return {label for label in asked if _precision(label) == "single"}
+
+
+def _precision(label: str) -> str:
+    """As the method declares it; "double" for one whose file is not there any more."""
+    try:
+        return registry.make(label)[0].precision
+    except (ValueError, ImportError):
+        return "double"
 
 
 def margins(labels) -> dict[str, float]:

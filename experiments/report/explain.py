@@ -84,6 +84,7 @@ def from_file(path: Path) -> Explained:
             int(row.get("index", 0)),
             query,
             _tags(row),
+            row.get("precision", "float64"),
         )
         truth = _truth(row) if "label" in row else _certify(query)
         said = pd.DataFrame(content.get("observations", []), columns=COLUMNS)
