@@ -15,6 +15,7 @@ from .truth.label import Truth
 
 
 PRECISIONS = ("float32", "float64")
+USELESS = ("start-overlap", "hit", "clear", "uncertain", "touching")  #: what redraw_if may name
 
 
 class ScenarioError(ValueError):
@@ -45,8 +46,8 @@ class Scenario:
     precision are asked about bodies that they cannot hold, and the tables mark them. "float32": poses, motions and vertices
     are rounded to float32 first, so that all engines are asked the same.
     redraw_if: what makes a case useless, so that it is drawn again (at most 50 times, and counted): any of "start-overlap"
-    (a sweep that begins inside), "hit", "clear", "uncertain".
-    Raises ValueError for another precision.
+    (a sweep that begins inside), "hit", "clear", "uncertain", "touching" (clear, but the surfaces share a point).
+    Raises ValueError for another precision, or another word in redraw_if.
     """
 
     name: str
@@ -61,6 +62,9 @@ class Scenario:
     def __post_init__(self):
         if self.precision not in PRECISIONS:
             raise ValueError(f"Scenario '{self.name}' has the precision '{self.precision}'; it must be one of {', '.join(PRECISIONS)}.")
+        wrong = sorted(set(self.redraw_if) - set(USELESS))
+        if wrong:
+            raise ValueError(f"Scenario '{self.name}' is drawn again if {', '.join(wrong)}; redraw_if takes {', '.join(USELESS)}.")
 
     def case(self, seed: int, level: float, index: int, attempt: int = 0) -> Case:
         """The same case for the same arguments, whatever was made before it. ScenarioError where it is none."""
@@ -82,7 +86,8 @@ class Scenario:
             raise ValueError(f"Scenario '{self.name}' has no level {level:g}. Its axis is {self.axis}; it takes {', '.join(f'{v:g}' for v in self.levels)}.")
 
     def useless(self, truth: Truth) -> bool:
-        return truth.label in self.redraw_if or ("start-overlap" in self.redraw_if and truth.start == "hit")
+        tags = {truth.label, "start-overlap" if truth.start == "hit" else "", "touching" if truth.touching else ""}
+        return not tags.isdisjoint(self.redraw_if)
 
 
 def snap(values) -> np.ndarray:

@@ -40,7 +40,7 @@ def general(store: Store, found: pd.DataFrame) -> Iterator[Table]:
     makers = [truth_table(store), method_table(store, found), *([leaderboard(found)] if found.question.nunique() > 1 else [])]
     for question in found.question.unique():
         part = found[(found.question == question) & (found.detail != f"does not answer {question}")]
-        makers += [accuracy_table(part, question), scenario_table(part, question)]
+        makers += [accuracy_table(part, question), touching_table(part, question), scenario_table(part, question)]
         if question == "overlap":
             makers.append(gap_table(part))
         else:
@@ -181,11 +181,15 @@ def truth_table(store: Store) -> Table:
     for name, group in cases.groupby("scenario", sort=False):
         count = group.label.value_counts()
         rows.append({"scenario": name, "question": group.question.iloc[0], "cases": len(group), "hit": count.get("hit", 0), "clear": count.get("clear", 0),
-                     "uncertain": count.get("uncertain", 0), "drawn again": int(group.attempt.sum()),
+                     "touching": int(group.touching.sum()), "uncertain": count.get("uncertain", 0), "drawn again": int(group.attempt.sum()),
                      "precision": " ".join(sorted(group.precision.unique())), "exposes": _exposes(name)})
     frame = pd.DataFrame(rows)
-    text = frame.astype(str)
-    return Table("truth", "Cases and their certified labels.", "Uncertain cases are in no rate. 'Drawn again': draws thrown away because the step began "
+    text, touching = frame.astype(str), ""
+    if frame.touching.any():
+        touching = "Touching ones, whose surfaces share a point and no more, count as clear here, and are in no rate. "
+    else:
+        text = text.drop(columns="touching")
+    return Table("truth", "Cases and their certified labels.", f"Uncertain cases are in no rate. {touching}'Drawn again': draws thrown away because the step began "
                  "in overlap. Precision: float32 where all numbers of a case are rounded to it.", frame, text, True, ("exposes", "precision", "drawn again"))
 
 
@@ -239,6 +243,17 @@ def accuracy_table(part: pd.DataFrame, question: str) -> Table:
     tunnelling = " Tunnelled: misses of sweeps whose start and end are both clear." if question != "overlap" else ""
     return Table(f"accuracy-{question}", f"Accuracy, {question}.", "Over the certified cases that a method answered; 95 % Wilson intervals in percent."
                  f"{tunnelling} In margin: hits reported within the method's documented margin, not counted as false alarms.{_single(single)}", counts, text, True, ("95 %", "95 % ", "in margin", "tunnelled"))
+
+
+def touching_table(part: pd.DataFrame, question: str) -> Table:
+    """What each method said where the bodies share a point and no more; no rows where there are no such cases."""
+    counts = metrics.rates(part[part.touching], ["method"])
+    clears = counts.touching - counts.touching_hits
+    text = pd.DataFrame({"method": counts.method, "cases": counts.asked.astype(str), "answered": counts.touching.astype(str),
+                         "said hit": counts.touching_hits.astype(str), "said clear": clears.astype(str)})
+    numbers = counts[["method", "asked", "answered", "touching_hits"]].assign(touching_clears=clears)
+    return Table(f"touching-{question}", f"Touching, {question}.", "The surfaces share a point, certified, and the bodies no more: neither answer is wrong, and "
+                 "these cases are in no rate.", numbers, text, True)
 
 
 def _single(names: set[str]) -> str:

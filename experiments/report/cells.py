@@ -122,6 +122,8 @@ def _link(name, column, value, row, place, scenarios, bands) -> dict | None:
         return {**link, "level": float(column), "kind": "judged hit"}
     if "question" not in place:
         return None
+    if name.startswith("touching"):
+        return {**link, "kind": "touching"} if column == "answered" else None
     if column in scenarios:
         return {**link, "scenario": column, "kind": "judged"}
     if column in bands:

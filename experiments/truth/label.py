@@ -17,6 +17,7 @@ class Truth:
     that tunnels when missed.
     gap: signed distance, length. Positive: a certified lower bound on the clearance (of a sweep: the least over the step).
     Negative: minus an estimate of the penetration depth (of a sweep: the deepest found over the step). NaN where unknown.
+    touching: clear, and the closed bodies share a point: the certificate's `touching` is its witness. Neither answer is wrong there.
     reason: of an uncertain label, why. certificate: JSON-able; see experiments/truth/README.md. {} where uncertain.
     """
 
@@ -28,3 +29,4 @@ class Truth:
     gap: float = nan
     reason: str = ""
     certificate: Mapping[str, Any] = field(default_factory=dict)
+    touching: bool = False

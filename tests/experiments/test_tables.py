@@ -158,3 +158,23 @@ def test_a_run_from_before_precisions_counts_as_float32():
     run = Run()
     assert "precision" not in run.cases
     assert not metrics.out_of_their_depth(metrics.outcomes(run))
+
+
+def test_touching_cases_have_a_table_of_their_own():
+    run = Run()
+    assert tables.touching_table(metrics.outcomes(run), "overlap").text.empty
+    run.cases = run.cases.assign(touching=run.cases.case == "d")
+    found = metrics.outcomes(run)
+    text = tables.touching_table(found, "overlap").text.set_index("method")
+    assert text.loc["ofg k=8"].to_dict() == {"cases": "1", "answered": "1", "said hit": "1", "said clear": "0"}
+    (row,) = metrics.rates(found[found.method == "ofg k=8"], ["method"]).to_dict("records")
+    assert row["clears"] == 0 and row["false_alarms"] == 0
+
+
+def test_the_truth_table_counts_what_touches_where_there_is_any():
+    run = Run()
+    run.cases = run.cases.assign(attempt=0)
+    assert "touching" not in tables.truth_table(run).text and "Touching" not in tables.truth_table(run).caption
+    run.cases = run.cases.assign(touching=run.cases.case == "d")
+    table = tables.truth_table(run)
+    assert table.text.touching.tolist() == ["1"] and "in no rate" in table.caption
