@@ -163,6 +163,8 @@ def declaration(method: Method) -> Iterator[str]:
         yield f"bodies {set(method.bodies)} must be some of {', '.join(KINDS)}"
     if not isinstance(method.solid, bool):
         yield "solid must be True or False"
+    if method.precision not in ("double", "single"):
+        yield f"precision '{method.precision}' must be double or single"
     if not method.margin >= 0:
         yield f"margin {method.margin} must be a length"
     if any(" " in str(v) or "," in str(v) for v in method.parameters.values()):

@@ -44,6 +44,7 @@ class Method(ABC):
     about: ClassVar[bool] = False
     gives_time: ClassVar[bool] = False  #: returns a time of impact for sweeps
     margin: ClassVar[float] = 0.0  #: documented distance (length) below which a clear pair may be called a hit
+    precision: str = "double"  #: "single" where the engine computes, or holds a body, in float32
     guarantee: ClassVar[str]  #: one line: what an answer is worth by its documentation
     time_error: float = nan  #: documented bound on |time - true time|, as a share of the step; may be a property
     cheapest: ClassVar[Mapping[str, Any]] = {}  #: parameters of its cheapest call, which gives its floor: {"n": 1} for n substeps

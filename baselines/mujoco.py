@@ -36,6 +36,7 @@ class Mujoco(Discrete):
 
     name = "mujoco"
     engine, imports = "mujoco", "mujoco"
+    precision = "single"  # computes in doubles on vertices held as float32
     configuration = "default"
     bodies = frozenset({"convex", "union"})
     solid = True
@@ -123,6 +124,7 @@ class MujocoSpeculative(Method):
 
     name = "mujoco-speculative"
     engine, imports = "mujoco", "mujoco"
+    precision = "single"  # computes in doubles on vertices held as float32
     configuration = "best effort"
     questions = frozenset({"translation", "motion"})
     bodies = frozenset({"convex", "union"})

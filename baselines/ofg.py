@@ -59,6 +59,7 @@ class OpposingFaceGeometry(Method):
         super().__init__(**parameters)
         mended = {name for name, value in self._options().items() if name in _REPAIRED and value != type(self).parameters[name]}
         self.solid = "containment" in mended
+        self.precision = "single" if self.parameters["precision"] == "float" else "double"
         if mended:
             self.configuration = "best effort" if self.parameters["repairs"] == "all" else "alternative"
 

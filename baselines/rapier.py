@@ -29,6 +29,7 @@ def _rapier():
 
 class _Hull:
     engine, imports = "rapier3d", "rapier3d"
+    precision = "single"
     bodies = frozenset({"convex", "union"})
     solid = True
 
@@ -40,6 +41,7 @@ class _Hull:
 
 class _Mesh:
     engine, imports = "rapier3d", "rapier3d"
+    precision = "single"
     bodies = frozenset({"convex", "union", "mesh"})
     solid = False
 

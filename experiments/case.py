@@ -11,7 +11,8 @@ from ofg import Query
 @dataclass(frozen=True, eq=False)
 class Case:
     """id: "thin_wall/100/0007": scenario, level of difficulty, index. level: the value on the scenario's difficulty axis.
-    tags: what else a table may be split by ({"feature": "edge-edge"}); strings or numbers."""
+    tags: what else a table may be split by ({"feature": "edge-edge"}); strings or numbers.
+    precision: "float32" where every number of the query is a float32 number by the scenario's word, else "float64"."""
 
     id: str
     scenario: str
@@ -19,3 +20,4 @@ class Case:
     index: int
     query: Query
     tags: Mapping[str, str | float] = field(default_factory=dict)
+    precision: str = "float64"

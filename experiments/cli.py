@@ -35,11 +35,11 @@ Scenarios = Annotated[Optional[list[Path]], typer.Option("--scenarios", help="Py
 def list_(methods: Methods = None, scenarios_: Scenarios = None) -> None:
     """Show scenarios, methods (what each can answer, and whether its engine is installed), experiments and presets."""
     _extend(methods, scenarios_)
-    _print_grid("Scenarios", ("name", "question", "difficulty", "levels", "exposes"),
-                [(s.name, s.question, s.axis, _levels(s.levels), s.exposes) for s in scenarios.scenarios().values()])
-    _print_grid("Methods", ("name", "configuration", "questions", "bodies", "tests", "parameters", "engine"),
+    _print_grid("Scenarios", ("name", "question", "precision", "difficulty", "levels", "exposes"),
+                [(s.name, s.question, s.precision, s.axis, _levels(s.levels), s.exposes) for s in scenarios.scenarios().values()])
+    _print_grid("Methods", ("name", "configuration", "questions", "bodies", "tests", "precision", "parameters", "engine"),
                 [(m.name, m.configuration, " ".join(q[0] for q in ("overlap", "translation", "motion") if q in m.questions),
-                  ", ".join(sorted(m.bodies)), "solid" if m.solid else "surface", " ".join(f"{k}={v}" for k, v in m.parameters.items()),
+                  ", ".join(sorted(m.bodies)), "solid" if m.solid else "surface", m.precision, " ".join(f"{k}={v}" for k, v in m.parameters.items()),
                   "not installed" if registry.available(m) else m.engine) for m in registry.methods().values()])
     console.print("Questions: [b]o[/b]verlap at one pose pair, [b]t[/b]ranslation, [b]m[/b]otion (turning and translating).")
     console.print()

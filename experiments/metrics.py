@@ -8,17 +8,19 @@ from scipy.stats import binomtest
 
 from baselines import registry
 
+from .rows import filled
 from .store import Store
 from .timing import FLOOR, LOST, PROBE
 
-OUTCOMES = ("right", "miss", "false alarm", "conservative", "no label", "unsupported", "error", "timeout")
+OUTCOMES = ("right", "miss", "false alarm", "conservative", "touching", "no label", "unsupported", "error", "timeout")
 
 
 def outcomes(store: Store) -> pd.DataFrame:
     """One row per case and method: the observation, the truth, and what came of it.
 
     outcome: "right"; "miss" (certified hit, answered clear); "false alarm" (certified clear, answered hit); "conservative" (a false
-    alarm at a certified clearance within the method's documented margin); "no label" (truth uncertain); or the status where it
+    alarm at a certified clearance within the method's documented margin); "touching" (the closed bodies share a point and no more,
+    where neither answer is wrong: in no rate); "no label" (truth uncertain); or the status where it
     is not ok. tunnelled: a miss of a sweep whose start and end are certified clear. error: signed time of impact error, as a share
     of the step: beyond the certified bracket, positive late, negative early, 0 inside; NaN where there is none.
     """
@@ -27,14 +29,16 @@ def outcomes(store: Store) -> pd.DataFrame:
 
 def judge(observations: pd.DataFrame, cases: pd.DataFrame) -> pd.DataFrame:
     """`outcomes` for rows of observations.parquet and of cases.parquet."""
+    cases = filled(cases)
+    cases = cases.assign(touching=cases.touching.astype(bool))
     table = observations.merge(cases.drop(columns=["certificate"]), on="case", how="left", validate="many_to_one")
     answered, hit = table.status == "ok", table.hit.fillna(False).astype(bool)
     margin = table.method.map(margins(table.method.unique()))
     clear, meets = table.label == "clear", table.label == "hit"
     alarm = answered & clear & hit
     table["outcome"] = np.select(
-        [~answered, table.label == "uncertain", meets & ~hit, alarm & (table.gap <= margin), alarm],
-        [table.status, "no label", "miss", "conservative", "false alarm"], "right")
+        [~answered, table.label == "uncertain", table.touching, meets & ~hit, alarm & (table.gap <= margin), alarm],
+        [table.status, "no label", "touching", "miss", "conservative", "false alarm"], "right")
     sweep = table.question != "overlap"
     table["can_tunnel"] = answered & sweep & meets & (table.start == "clear") & (table.end == "clear")
     table["tunnelled"] = table.can_tunnel & ~hit
@@ -43,6 +47,20 @@ def judge(observations: pd.DataFrame, cases: pd.DataFrame) -> pd.DataFrame:
     table["error"] = (late + early).where(timed)
     table["relative_gap"] = table.gap / table["size"]
     return table
+
+
+def out_of_their_depth(table: pd.DataFrame) -> set[str]:
+    """Labels of single-precision methods that answered cases given in double precision."""
+    asked = table[(table.precision == "float64") & (table.status == "ok")].method.unique()
+    return {label for label in asked if _precision(label) == "single"}
+
+
+def _precision(label: str) -> str:
+    """As the method declares it; "double" for one whose file is not there any more."""
+    try:
+        return registry.make(label)[0].precision
+    except (ValueError, ImportError):
+        return "double"
 
 
 def margins(labels) -> dict[str, float]:
@@ -68,6 +86,7 @@ def rates(table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
     flags = pd.DataFrame({
         "asked": 1, "answered": table.status == "ok", "unsupported": table.status == "unsupported",
         "failed": table.status.isin(["error", "timeout"]), "uncertain": table.label == "uncertain",
+        "touching": table.outcome == "touching", "touching_hits": (table.outcome == "touching") & table.hit.fillna(False).astype(bool),
         "hits": labelled & (table.label == "hit"), "misses": table.outcome == "miss",
         "clears": labelled & (table.label == "clear"), "false_alarms": table.outcome == "false alarm",
         "conservative": table.outcome == "conservative", "can_tunnel": table.can_tunnel, "tunnelled": table.tunnelled,

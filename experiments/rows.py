@@ -22,13 +22,14 @@ def case_row(case: Case, truth: Truth, attempt: int) -> dict:
     q = case.query
     return {
         "case": case.id, "scenario": case.scenario, "level": case.level, "index": case.index, "attempt": attempt,
+        "precision": case.precision,
         "question": q.question, "body_a": q.a.digest, "body_b": q.b.digest,
         "quaternion_a": q.pose_a.quaternion.tolist(), "position_a": q.pose_a.position.tolist(),
         "quaternion_b": q.pose_b.quaternion.tolist(), "position_b": q.pose_b.position.tolist(),
         **_motion_row(q.motion, ""), **_motion_row(q.motion_b, "_b"),
         "size": max(q.a.size, q.b.size), "faces": max(len(q.a.faces), len(q.b.faces)), "tags": json.dumps(dict(case.tags), sort_keys=True),
         "label": truth.label, "t_lo": truth.t_lo, "t_hi": truth.t_hi, "start": truth.start, "end": truth.end, "gap": truth.gap,
-        "reason": truth.reason, "certificate": json.dumps(dict(truth.certificate), sort_keys=True),
+        "touching": truth.touching, "reason": truth.reason, "certificate": json.dumps(dict(truth.certificate), sort_keys=True),
     }
 
 
@@ -41,8 +42,10 @@ def _motion_row(motion: Motion, side: str) -> dict:
 
 
 def filled(cases: pd.DataFrame) -> pd.DataFrame:
-    """The rows with every column of a motion. Runs recorded before B could move lack some: B rests there, and A turns about its origin."""
+    """The rows with every column. Runs recorded before a column was: B rests there, A turns about its origin, every
+    pose and motion is of float32 numbers, and no case is known to touch."""
     rest = {f"{name}{side}": value for side in ("", "_b") for name, value in _motion_row(Motion(), "").items()}
+    rest.update(precision="float32", touching=False)
     missing = {name: [np.array(value) if isinstance(value, list) else value] * len(cases) for name, value in rest.items() if name not in cases}
     return cases.assign(**missing)
 
@@ -74,5 +77,5 @@ def cases_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> Iterable[tuple[Case, 
         query = Query(row.question, made[row.body_a], made[row.body_b], Pose(row.quaternion_a, row.position_a),
                       Pose(row.quaternion_b, row.position_b), Motion(row.displacement, row.axis, row.angle, row.about),
                       Motion(row.displacement_b, row.axis_b, row.angle_b, row.about_b))
-        truth = Truth(row.label, row.t_lo, row.t_hi, row.start, row.end, row.gap, row.reason, json.loads(row.certificate))
-        yield Case(row.case, row.scenario, row.level, row.index, query, json.loads(row.tags)), truth
+        truth = Truth(row.label, row.t_lo, row.t_hi, row.start, row.end, row.gap, row.reason, json.loads(row.certificate), bool(row.touching))
+        yield Case(row.case, row.scenario, row.level, row.index, query, json.loads(row.tags), row.precision), truth

@@ -3,37 +3,25 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Iterator
 
 import numpy as np
 import pandas as pd
-from tabulate import tabulate
 
 from baselines import registry
 from ofg import QUESTIONS
 
 from . import metrics, scenarios
 from .config import ConfigError, RunConfig, TableChoice, closest
+from .rows import filled
 from .store import Store
+from .table import MARK, Table, latex, marked, markdown, texts
 from .timing import SIZES, situation_of, size_of
 
+__all__ = ["Table", "build", "check", "latex", "markdown", "save", "texts"]
+
 BANDS = (1e-2, 1e-4, 1e-7)  # of |gap| / size, that tables are split by
-
-
-@dataclass(frozen=True)
-class Table:
-    """numbers: what CSV holds. text: what people read; same rows. headline: printed at the end of a run; the others on demand.
-    optional: columns of text that a narrow terminal leaves out, the first to go first."""
-
-    name: str
-    title: str
-    caption: str
-    numbers: pd.DataFrame
-    text: pd.DataFrame
-    headline: bool = False
-    optional: tuple[str, ...] = ()
-    choice: TableChoice | None = None  #: of a table that the configuration asked for
 
 
 def build(store: Store) -> Iterator[Table]:
@@ -52,7 +40,7 @@ def general(store: Store, found: pd.DataFrame) -> Iterator[Table]:
     makers = [truth_table(store), method_table(store, found), *([leaderboard(found)] if found.question.nunique() > 1 else [])]
     for question in found.question.unique():
         part = found[(found.question == question) & (found.detail != f"does not answer {question}")]
-        makers += [accuracy_table(part, question), scenario_table(part, question)]
+        makers += [accuracy_table(part, question), touching_table(part, question), scenario_table(part, question)]
         if question == "overlap":
             makers.append(gap_table(part))
         else:
@@ -71,31 +59,6 @@ def save(store: Store, tables: list[Table]) -> None:
     for table in tables:
         for suffix, text in texts(table).items():
             store.write_text(text, "tables", f"{table.name}.{suffix}")
-
-
-def texts(table: Table) -> dict[str, str]:
-    """The files of a table: suffix -> content."""
-    csv = table.numbers.to_csv(index=False, float_format="%.9g", lineterminator="\n")
-    return {"csv": csv, "md": markdown(table), "tex": latex(table)}
-
-
-def latex(table: Table) -> str:
-    """A table environment for the booktabs package. Wide ones are for the reader to turn or to shrink."""
-    align = ["left"] + ["right"] * (table.text.shape[1] - 1)
-    body = tabulate(table.text, headers=[str(c).strip() for c in table.text.columns], showindex=False, tablefmt="latex_booktabs", colalign=align, disable_numparse=True)
-    return f"\\begin{{table}}\n\\caption{{{_tex(table.title)} {_tex(table.caption)}}}\n\\label{{tab:{table.name}}}\n\\centering\n{body}\n\\end{{table}}\n"
-
-
-def _tex(text: str) -> str:
-    """Text as LaTeX prints it; tabulate does the same for cells."""
-    special = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\ensuremath{<}", ">": r"\ensuremath{>}",
-               **{c: "\\" + c for c in "&%$#_{}"}}
-    return "".join(special.get(c, c) for c in text)
-
-
-def markdown(table: Table) -> str:
-    align = ["left"] + ["right"] * (table.text.shape[1] - 1)
-    return f"**{table.title}** {table.caption}\n\n{table.text.to_markdown(index=False, colalign=align, disable_numparse=True)}\n"
 
 
 COLUMNS = ("level", "scenario", "question", "situation", "faces", "band")
@@ -213,16 +176,21 @@ def _reference(config: RunConfig) -> str:
 
 
 def truth_table(store: Store) -> Table:
-    cases = store.read("cases.parquet")
+    cases = filled(store.read("cases.parquet"))
     rows = []
     for name, group in cases.groupby("scenario", sort=False):
         count = group.label.value_counts()
         rows.append({"scenario": name, "question": group.question.iloc[0], "cases": len(group), "hit": count.get("hit", 0), "clear": count.get("clear", 0),
-                     "uncertain": count.get("uncertain", 0), "drawn again": int(group.attempt.sum()), "exposes": _exposes(name)})
+                     "touching": int(group.touching.sum()), "uncertain": count.get("uncertain", 0), "drawn again": int(group.attempt.sum()),
+                     "precision": " ".join(sorted(group.precision.unique())), "exposes": _exposes(name)})
     frame = pd.DataFrame(rows)
-    text = frame.astype(str)
-    return Table("truth", "Cases and their certified labels.", "Uncertain cases are in no rate. 'Drawn again': draws thrown away because the step began "
-                 "in overlap.", frame, text, True, ("exposes", "drawn again"))
+    text, touching = frame.astype(str), ""
+    if frame.touching.any():
+        touching = "Touching ones, whose surfaces share a point and no more, count as clear here, and are in no rate. "
+    else:
+        text = text.drop(columns="touching")
+    return Table("truth", "Cases and their certified labels.", f"Uncertain cases are in no rate. {touching}'Drawn again': draws thrown away because the step began "
+                 "in overlap. Precision: float32 where all numbers of a case are rounded to it.", frame, text, True, ("exposes", "precision", "drawn again"))
 
 
 def method_table(store: Store, found: pd.DataFrame) -> Table:
@@ -245,7 +213,8 @@ def leaderboard(found: pd.DataFrame) -> Table:
     counts["wrong"], counts["judged"] = counts.misses + counts.false_alarms, counts.hits + counts.clears
     counts["wrong_low"], counts["wrong_high"] = zip(*(metrics.wilson(w, n) for w, n in zip(counts.wrong, counts.judged)))
     counts = counts.assign(share=counts.wrong / counts.judged).sort_values(["share", "wrong_high"], kind="stable", na_position="last")
-    text = pd.DataFrame({"method": counts.method, "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
+    single = metrics.out_of_their_depth(found)
+    text = pd.DataFrame({"method": marked(counts.method, single), "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
                          "wrong": _fraction(counts, "wrong", "judged"), "95 %": _interval(counts, "wrong")})
     each = metrics.rates(found, ["method", "question"])
     for question in found.question.unique():
@@ -257,13 +226,14 @@ def leaderboard(found: pd.DataFrame) -> Table:
     text["in margin"] = counts.conservative.astype(str).to_list()
     numbers = counts[["method", "asked", "answered", "wrong", "judged", "wrong_low", "wrong_high", "conservative", *(c for c in counts if c.startswith(tuple(QUESTIONS)))]]
     return Table("leaderboard", "Leaderboard, all questions.", "Misses and false alarms of the certified cases answered, least share first, 95 % Wilson intervals "
-                 "in percent. A method that answers fewer cases had fewer chances to be wrong: compare within a column. In margin: as in the accuracy tables.",
+                 "in percent. A method that answers fewer cases had fewer chances to be wrong: compare within a column. In margin: as in the accuracy tables." + _single(single),
                  numbers, text, False, ("95 %", "in margin"))
 
 
 def accuracy_table(part: pd.DataFrame, question: str) -> Table:
     counts = metrics.rates(part, ["method"])
-    text = pd.DataFrame({"method": counts.method, "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
+    single = metrics.out_of_their_depth(part)
+    text = pd.DataFrame({"method": marked(counts.method, single), "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
                          "misses": _fraction(counts, "misses", "hits"), "95 %": _interval(counts, "miss")})
     if question != "overlap":
         text["tunnelled"] = _fraction(counts, "tunnelled", "can_tunnel")
@@ -272,7 +242,23 @@ def accuracy_table(part: pd.DataFrame, question: str) -> Table:
     text["in margin"] = counts.conservative.astype(str)
     tunnelling = " Tunnelled: misses of sweeps whose start and end are both clear." if question != "overlap" else ""
     return Table(f"accuracy-{question}", f"Accuracy, {question}.", "Over the certified cases that a method answered; 95 % Wilson intervals in percent."
-                 f"{tunnelling} In margin: hits reported within the method's documented margin, not counted as false alarms.", counts, text, True, ("95 %", "95 % ", "in margin", "tunnelled"))
+                 f"{tunnelling} In margin: hits reported within the method's documented margin, not counted as false alarms.{_single(single)}", counts, text, True, ("95 %", "95 % ", "in margin", "tunnelled"))
+
+
+def touching_table(part: pd.DataFrame, question: str) -> Table:
+    """What each method said where the bodies share a point and no more; no rows where there are no such cases."""
+    counts = metrics.rates(part[part.touching], ["method"])
+    clears = counts.touching - counts.touching_hits
+    text = pd.DataFrame({"method": counts.method, "cases": counts.asked.astype(str), "answered": counts.touching.astype(str),
+                         "said hit": counts.touching_hits.astype(str), "said clear": clears.astype(str)})
+    numbers = counts[["method", "asked", "answered", "touching_hits"]].assign(touching_clears=clears)
+    return Table(f"touching-{question}", f"Touching, {question}.", "The surfaces share a point, certified, and the bodies no more: neither answer is wrong, and "
+                 "these cases are in no rate.", numbers, text, True)
+
+
+def _single(names: set[str]) -> str:
+    """The line under a table that explains its marks."""
+    return f"{MARK}: computes or holds bodies in single precision, and was asked cases whose numbers are not rounded to it." if names else ""
 
 
 def scenario_table(part: pd.DataFrame, question: str) -> Table:

@@ -11,6 +11,7 @@ import pandas as pd
 
 from ofg import QUESTIONS
 
+from ..table import unmarked
 from ..timing import SIZES
 
 #: column of a table -> kind of the rows that it counts
@@ -112,7 +113,7 @@ def _link(name, column, value, row, place, scenarios, bands) -> dict | None:
         )
     if "method" not in row or column == "method":
         return None
-    link = {"method": row["method"], **place}
+    link = {"method": unmarked(row["method"]), **place}
     if name == "unanswered":
         return {**link, "kind": row["status"], "detail": row["detail"]} if column == "cases" else None
     if name.startswith(("cost-", "ratio-")):
@@ -121,6 +122,8 @@ def _link(name, column, value, row, place, scenarios, bands) -> dict | None:
         return {**link, "level": float(column), "kind": "judged hit"}
     if "question" not in place:
         return None
+    if name.startswith("touching"):
+        return {**link, "kind": "touching"} if column == "answered" else None
     if column in scenarios:
         return {**link, "scenario": column, "kind": "judged"}
     if column in bands:

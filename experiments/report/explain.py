@@ -84,6 +84,7 @@ def from_file(path: Path) -> Explained:
             int(row.get("index", 0)),
             query,
             _tags(row),
+            row.get("precision", "float64"),
         )
         truth = _truth(row) if "label" in row else _certify(query)
         said = pd.DataFrame(content.get("observations", []), columns=COLUMNS)
@@ -175,7 +176,7 @@ def command(name, run_, file, out, save_to, anew, methods, method_files, print_g
         for r in verdicts(found).itertuples()
     ]
     print_grid(
-        f"{found.case.id}: certified {t.label}{bracket}, gap {t.gap:.3g}{'. ' + t.reason if t.reason else ''}",
+        f"{found.case.id}: certified {t.label}{', touching' if t.touching else ''}{bracket}, gap {t.gap:.3g}{'. ' + t.reason if t.reason else ''}",
         columns,
         rows,
         "Error: of the time of impact beyond its certified bracket, as a share of the step; positive is late." if sweep else "",
@@ -222,7 +223,7 @@ def verdicts(explained: Explained) -> pd.DataFrame:
     found = found[~found.detail.fillna("").str.startswith("does not answer")]
     order = {
         name: i
-        for i, name in enumerate(("miss", "false alarm", "error", "timeout", "conservative", "right", "no label", "unsupported"))
+        for i, name in enumerate(("miss", "false alarm", "error", "timeout", "conservative", "touching", "right", "no label", "unsupported"))
     }
     return (
         found.assign(order=found.outcome.map(order))
@@ -264,6 +265,7 @@ def _truth(row: dict) -> Truth:
         gap,
         row.get("reason", ""),
         json.loads(certificate) if isinstance(certificate, str) else certificate,
+        bool(row.get("touching", False)),
     )
 
 

@@ -30,6 +30,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="both_moving",
     question="motion",
+    precision="float32",
     exposes="methods that know one moving body, and those that read a motion as its two ends",
     axis="angle by which each body turns, radians",
     levels=(0.1, 0.5, 1.5, 6.0),

@@ -32,6 +32,7 @@ def _about_z(angle) -> Pose:
 SCENARIO = Scenario(
     name="concave_rotation",
     question="motion",
+    precision="float32",
     exposes="hull-only engines (A's hull mostly overlaps B from the start), and pieces: the right one changes during the turn",
     axis="angle of the turn, radians",
     levels=(0.25, 0.5, 1.0, float(np.float32(np.pi / 2)), 6.0),

@@ -22,6 +22,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="contact",
     question="translation",
+    precision="float32",
     exposes="the error of the time of impact, by the angle between the path and the contact's normal",
     axis="angle to the normal, degrees",
     levels=(0.0, 30.0, 60.0, 80.0, 89.0, 89.9),

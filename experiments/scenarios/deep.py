@@ -18,6 +18,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="deep",
     question="overlap",
+    precision="float32",
     exposes="the degenerate case of the origin at the centre of the difference (GJK), and OFG's selection by distance of centres",
     axis="distance of the centres / size",
     levels=(0.1, 1e-2, 1e-4, 1e-8, 0.0),

@@ -19,6 +19,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="end_hit",
     question="translation",
+    precision="float32",
     exposes="the end of the step: hits in its last moment that are lost, and hits of the next step that are counted early",
     axis="1 - time of impact",
     levels=tuple(sign * 10.0**-e for e in (2, 4, 6, 8, 10) for sign in (1, -1)),

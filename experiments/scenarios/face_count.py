@@ -21,6 +21,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="face_count",
     question="overlap",
+    precision="float32",
     exposes="how cost grows with the number of faces, and how small a share of them a selection of k faces is",
     axis="faces of each body",
     levels=(12.0, *map(float, SUBDIVISIONS)),

@@ -20,6 +20,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="far_from_origin",
     question="overlap",
+    precision="float32",
     exposes="cancellation, and engines that compute in float32 or in world coordinates",
     axis="distance from the origin",
     levels=(1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9),

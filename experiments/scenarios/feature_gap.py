@@ -13,6 +13,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="feature_gap",
     question="overlap",
+    precision="float32",
     exposes="absolute and relative tolerances: a method errs from the gap on at which its own epsilon begins",
     axis="signed gap / size",
     levels=tuple(sign * 10.0**-e for e in (1, 2, 3, 4, 6, 8, 10, 12, 14, 16) for sign in (1, -1)),

@@ -13,6 +13,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="full_turn",
     question="motion",
+    precision="float32",
     exposes="methods that know a motion by its two ends: start and end pose are the same, so nothing seems to move",
     axis="whole turns in the step",
     levels=(1.0, 2.0, 5.0, 20.0, 100.0),

@@ -21,6 +21,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="graze",
     question="translation",
+    precision="float32",
     exposes="false alarms of conservative sweeps, and misses of shallow scrapes",
     axis="signed clearance / size",
     levels=tuple(sign * 10.0**-e for e in (1, 2, 3, 4, 6, 8, 10, 12) for sign in (1, -1)),

@@ -21,6 +21,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="hooked_ls",
     question="overlap",
+    precision="float32",
     exposes="the wrong piece: the pieces with the closest centres are not those that meet, and the hulls always overlap",
     axis="signed gap / size",
     levels=tuple(sign * 10.0**-e for e in (1, 2, 3, 4, 5) for sign in (1, -1)),

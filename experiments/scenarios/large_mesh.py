@@ -15,6 +15,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="large_mesh",
     question="overlap",
+    precision="float32",
     exposes="cost and selection on thousands of small faces, where k of them cover next to nothing",
     axis="signed gap / size aimed at",
     levels=(0.1, -0.1, 1e-2, -1e-2, 1e-3, -1e-3),

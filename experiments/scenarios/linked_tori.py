@@ -26,6 +26,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="linked_tori",
     question="overlap",
+    precision="float32",
     exposes="concavity: hulls overlap, surfaces are linked, and only the right pieces tell whether the solids meet",
     axis="signed gap / size",
     levels=tuple(sign * g for g in (0.05, 0.01, 1e-3, 1e-4, 1e-5) for sign in (1, -1)),

@@ -22,6 +22,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="near_start",
     question="translation",
+    precision="float32",
     exposes="contact at t = 0: hits taken back as resting contact, and departures called hits",
     axis="gap at the start / size",
     levels=(1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12),

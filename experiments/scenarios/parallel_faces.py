@@ -25,6 +25,7 @@ def tilted(body: Body, slope: float) -> Body:
 SCENARIO = Scenario(
     name="parallel_faces",
     question="overlap",
+    precision="float32",
     exposes="stalls and cycles of GJK and EPA, whose simplices degenerate between parallel faces",
     axis="tilt, radians",
     levels=(1e-2, 1e-3, 1e-5, 1e-7, 1e-9, 1e-12, 0.0),

@@ -15,6 +15,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="random_pose",
     question="overlap",
+    precision="float32",
     exposes="next to nothing, and that is its use: on easy cases nearly every method is right, and pooled rates flatter",
     axis="distance of the centres / sum of the radii",
     levels=(0.25, 0.5, 0.75, 1.0, 1.25),

@@ -12,6 +12,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="real_motion",
     question="motion",
+    precision="float32",
     exposes="what a curved path of an uneven, concave body costs, and which pieces it really meets",
     axis="angle of the turn, radians",
     levels=(0.5, 1.5, 3.0, 6.0),

@@ -15,6 +15,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="real_overlap",
     question="overlap",
+    precision="float32",
     exposes="what uneven real triangles, concavity and many pieces do to methods that clean shapes flatter",
     axis="signed gap / size aimed at",
     levels=(0.1, -0.1, 1e-2, -1e-2, 1e-3, -1e-3, 1e-4, -1e-4),

@@ -12,6 +12,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="real_sweep",
     question="translation",
+    precision="float32",
     exposes="sweeps of real meshes: hollow bodies, pieces, and thin parts of a few uneven triangles",
     axis="travel / size of the body hit",
     levels=(2.0, 5.0, 20.0),

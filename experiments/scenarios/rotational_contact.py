@@ -23,6 +23,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="rotational_contact",
     question="motion",
+    precision="float32",
     exposes="the error of the time of impact when the path is curved",
     axis="angle of the turn, radians",
     levels=(0.1, 0.5, 1.5, 3.0, 6.0, 12.0),

@@ -14,6 +14,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="scale",
     question="overlap",
+    precision="float32",
     exposes="tolerances and margins in units of length: micrometres and kilometres are the same question",
     axis="factor on all lengths",
     levels=(1.0, 1e-3, 1e3, 1e-6, 1e6, 1e-9, 1e9),

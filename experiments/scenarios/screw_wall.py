@@ -16,6 +16,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="screw_wall",
     question="motion",
+    precision="float32",
     exposes="tunnelling of bodies that fly and turn at once: sampling, linearised paths, and what certainty costs on both",
     axis="travel in the step / thickness of the wall",
     levels=(2.0, 10.0, 100.0, 1e3, 1e4, 1e6, 1e9, 1e15),

@@ -25,6 +25,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="sliver",
     question="overlap",
+    precision="float32",
     exposes="edge-edge axes that get lost, and large thin faces whose centres are far from the contact (OFG's selection)",
     axis="aspect: length / thickness",
     levels=(10.0, 100.0, 1e3, 1e4),

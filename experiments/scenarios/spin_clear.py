@@ -27,6 +27,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="spin_clear",
     question="motion",
+    precision="float32",
     exposes="the chord's error: a path of K straight pieces is off by r theta^2 / 8 K^2, and wrong where the clearance is less",
     axis="signed clearance / (r theta^2 / 8)",
     levels=tuple(sign * 0.25**k for k in range(7) for sign in (1, -1)),

@@ -11,6 +11,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="spin_side",
     question="motion",
+    precision="float32",
     exposes="methods that linearise the path or leave the rotation out: the rod's centre does not move at all",
     axis="angle of the turn, radians",
     levels=(0.5, 1.0, 2.0, 3.0, 6.0),

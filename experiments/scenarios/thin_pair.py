@@ -31,6 +31,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="thin_pair",
     question="translation",
+    precision="float32",
     exposes="tunnelling of any path that is sampled, however often: where both are thin, samples fall beside the contact",
     axis="travel in the step / thickness of both",
     levels=(2.0, 5.0, 20.0, 100.0, 1e3, 1e4, 1e6),

@@ -11,6 +11,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="thin_wall",
     question="translation",
+    precision="float32",
     exposes="tunnelling: methods that look at the end pose, or at samples of the path",
     axis="travel in the step / thickness of the wall",
     levels=(2.0, 10.0, 100.0, 1e3, 1e4, 1e6, 1e9, 1e15),

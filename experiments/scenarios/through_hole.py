@@ -29,6 +29,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="through_hole",
     question="translation",
+    precision="float32",
     exposes="hulls of concave bodies, and hulls of their sweeps: both fill the hole",
     axis="signed clearance / size",
     levels=tuple(sign * 10.0**-e for e in (1, 2, 3, 4, 5) for sign in (1, -1)),

@@ -17,6 +17,7 @@ def generate(rng, level) -> Draft:
 SCENARIO = Scenario(
     name="tiny_huge",
     question="overlap",
+    precision="float32",
     exposes="epsilons that are absolute, or relative to the larger body",
     axis="size of the huge body / size of the tiny one",
     levels=(1e2, 1e3, 1e4, 1e5, 1e6),

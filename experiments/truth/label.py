@@ -17,8 +17,8 @@ class Truth:
     that tunnels when missed.
     gap: signed distance, length. Positive: a certified lower bound on the clearance (of a sweep: the least over the step).
     Negative: minus an estimate of the penetration depth (of a sweep: the deepest found over the step). NaN where unknown.
-    reason: of an uncertain label, why. touching: clear, and the closed bodies share a point: the certificate's `touching` is its
-    witness. certificate: JSON-able; see experiments/truth/README.md. {} where uncertain.
+    touching: clear, and the closed bodies share a point: the certificate's `touching` is its witness. Neither answer is wrong there.
+    reason: of an uncertain label, why. certificate: JSON-able; see experiments/truth/README.md. {} where uncertain.
     """
 
     label: str
@@ -28,5 +28,5 @@ class Truth:
     end: str = "uncertain"
     gap: float = nan
     reason: str = ""
-    touching: bool = False
     certificate: Mapping[str, Any] = field(default_factory=dict)
+    touching: bool = False

@@ -56,6 +56,13 @@ def test_one_answer_that_moves_is_found(run, tmp_path, change):
     assert not found.identical and len(found.answers) == 1 and found.same_content
 
 
+def test_a_case_that_touches_now_is_a_label_that_moved(run, tmp_path):
+    change = set_at("touching", True, lambda t: t.label == "clear")
+    found = compare.compare(run, changed(run, tmp_path / "touching", "cases.parquet", change))
+    assert found.labels[["before", "after"]].values.tolist() == [["clear", "clear, touching"]]
+    assert not found.identical and (found.answers.after.str.contains("touching")).all()
+
+
 def test_the_last_bit_of_a_time_is_no_change(run, tmp_path):
     other = changed(run, tmp_path / "bit", change=set_at("time", lambda t: t[timed(t)].time.iloc[0] * (1 + 2e-16), timed))
     assert compare.compare(run, other).identical

@@ -82,3 +82,17 @@ def test_wilson_holds_the_rate_and_stays_in_0_1(count, more):
 
 def test_wilson_of_nothing_is_no_number():
     assert np.isnan(metrics.wilson(0, 0)).all()
+
+
+def test_touching_is_nobodys_error(margin):
+    cases = [{**case(n, label="clear", gap=0.0), "touching": n != "c"} for n in "abcd"]
+    observations = [seen("a", True), seen("b", False), seen("c", True), seen("d", status="error")]
+    table = metrics.outcomes(Tables(cases, observations))
+    assert list(table.outcome) == ["touching", "touching", "conservative", "error"]
+    (row,) = metrics.rates(table, ["method"]).to_dict("records")
+    assert (row["answered"], row["clears"], row["false_alarms"], row["touching"], row["touching_hits"]) == (3, 1, 0, 2, 1)
+
+
+def test_a_run_from_before_touching_was_known_has_none(margin):
+    table = metrics.outcomes(Tables([case("a", label="clear", gap=0.5)], [seen("a", True)]))
+    assert list(table.outcome) == ["false alarm"] and not table.touching.any()

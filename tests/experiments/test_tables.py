@@ -132,3 +132,49 @@ def test_the_leaderboard_counts_all_questions_and_puts_the_least_share_of_errors
     assert (own.wrong, own["overlap missed"], own["overlap false"], own["translation missed"], own["translation false"]) == ("2/8", "1/3", "1/1", "0/3", "0/1")
     assert (text.loc["brute-force", "wrong"], text.loc["brute-force", "translation missed"]) == ("0/4", "-")
     assert own["95 %"] == "{:.1f}-{:.1f}".format(*(100 * b for b in metrics.wilson(2, 8)))
+
+
+def asked_in(precision):
+    """mujoco, which holds float32 vertices, and fcl-convex, on one hit of this precision."""
+    run = Run()
+    run.cases = run.cases[:1].assign(precision=precision)
+    rows = [(m, "a", "ok", True, nan, "") for m in ("mujoco", "fcl-convex")]
+    columns = ["method", "case", "status", "hit", "time", "detail"]
+    run.observations = pd.DataFrame(rows, columns=columns).astype({"hit": "boolean"})
+    return metrics.outcomes(run)
+
+
+def test_single_precision_is_marked_where_cases_are_not_rounded_to_it():
+    for make in (lambda found: tables.accuracy_table(found, "overlap"), tables.leaderboard):
+        plain, marked = make(asked_in("float32")), make(asked_in("float64"))
+        assert set(plain.text.method) == {"mujoco", "fcl-convex"} and "\u2020" not in plain.caption
+        assert set(marked.text.method) == {"mujoco \u2020", "fcl-convex"}
+        assert "\u2020: computes or holds bodies in single precision" in marked.caption
+        assert set(marked.numbers.method) == {"mujoco", "fcl-convex"}
+        check_latex(tables.latex(marked).replace(f"{{tab:{marked.name}}}", "{tab:name}"), marked.text.shape[1])
+
+
+def test_a_run_from_before_precisions_counts_as_float32():
+    run = Run()
+    assert "precision" not in run.cases
+    assert not metrics.out_of_their_depth(metrics.outcomes(run))
+
+
+def test_touching_cases_have_a_table_of_their_own():
+    run = Run()
+    assert tables.touching_table(metrics.outcomes(run), "overlap").text.empty
+    run.cases = run.cases.assign(touching=run.cases.case == "d")
+    found = metrics.outcomes(run)
+    text = tables.touching_table(found, "overlap").text.set_index("method")
+    assert text.loc["ofg k=8"].to_dict() == {"cases": "1", "answered": "1", "said hit": "1", "said clear": "0"}
+    (row,) = metrics.rates(found[found.method == "ofg k=8"], ["method"]).to_dict("records")
+    assert row["clears"] == 0 and row["false_alarms"] == 0
+
+
+def test_the_truth_table_counts_what_touches_where_there_is_any():
+    run = Run()
+    run.cases = run.cases.assign(attempt=0)
+    assert "touching" not in tables.truth_table(run).text and "Touching" not in tables.truth_table(run).caption
+    run.cases = run.cases.assign(touching=run.cases.case == "d")
+    table = tables.truth_table(run)
+    assert table.text.touching.tolist() == ["1"] and "in no rate" in table.caption

@@ -58,7 +58,7 @@ async function body(index) {
 
 // What a letter counts as.
 const JUDGED = new Set(["r", "m", "f", "c"]),
-  ANSWERED = new Set(["r", "m", "f", "c", "n"]),
+  ANSWERED = new Set(["r", "m", "f", "c", "b", "n"]),
   LOST = new Set(["u", "e", "t"]);
 const KINDS = {
   all: () => true,
@@ -78,6 +78,7 @@ const KINDS = {
   miss: (x) => x === "m",
   "false alarm": (x) => x === "f",
   conservative: (x) => x === "c",
+  touching: (x) => x === "b",
   right: (x) => x === "r",
   "no label": (x) => x === "n",
   unsupported: (x) => x === "u",
@@ -102,6 +103,7 @@ const KIND_WORDS = {
   "can tunnel": "can tunnel",
   "false alarm": "false alarms",
   conservative: "hits within the margin",
+  touching: "touching: neither answer is wrong",
   right: "right",
   "no label": "no certified label",
   unsupported: "not supported",

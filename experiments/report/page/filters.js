@@ -78,5 +78,6 @@ function drawFilters() {
 
 function uncertainWords() {
   const n = subset.filter((i) => D.cases.label[i] === "uncertain").length;
-  return n ? `, ${n} without a certified label (in no rate)` : "";
+  const touching = subset.filter((i) => D.cases.touching[i]).length;
+  return (n ? `, ${n} without a certified label (in no rate)` : "") + (touching ? `, ${touching} touching (in no rate)` : "");
 }

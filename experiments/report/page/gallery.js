@@ -1,7 +1,7 @@
 // The cases behind a choice: the misses, false alarms and late times of one method, or those of any cell of the page.
 const PAGE = 24;
 const G = { method: "", kind: "", more: {}, shown: PAGE, list: [] };
-const GALLERY_KINDS = ["miss", "tunnelled", "false alarm", "late", "early", "conservative", "failed", "wrong", "right", "all"];
+const GALLERY_KINDS = ["miss", "tunnelled", "false alarm", "late", "early", "conservative", "touching", "failed", "wrong", "right", "all"];
 
 function openCases(to) {
   const questions = new Set(casesOf(to).map((i) => D.cases.question[i]));

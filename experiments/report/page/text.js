@@ -29,7 +29,7 @@ function number(x, digits = 3) {
 const microseconds = (ns) => (ns < 1e4 ? (ns / 1e3).toFixed(2) : ns < 1e5 ? (ns / 1e3).toFixed(1) : (ns / 1e3).toFixed(0));
 const plural = (n, one, many = one + "s") => `${n.toLocaleString("en")} ${n === 1 ? one : many}`;
 
-const MARKS = { r: "✓", m: "✗", f: "!", c: "≈", n: "?", u: "–", e: "⚠", t: "⏱", ".": "" };
+const MARKS = { r: "✓", m: "✗", f: "!", c: "≈", b: "·", n: "?", u: "–", e: "⚠", t: "⏱", ".": "" };
 const badge = (letter) =>
   el(
     "span",

@@ -24,6 +24,7 @@ function facts(i) {
     [
       "Certified",
       el("b", { class: `label ${c.label[i]}` }, c.label[i]),
+      c.touching[i] ? ", touching: the surfaces share a point and no more" : "",
       c.reason[i] ? ` (${c.reason[i]})` : "",
       sweep && hit ? ` · start ${c.start[i]}, end ${c.end[i]}` : "",
     ],
@@ -122,7 +123,8 @@ function ofgWords(i, label, x) {
     lines.push(
       `It answered hit${x.time !== null ? ` at t = ${number(x.time, 8)}` : ""}: ${{ start: "faces that meet at the start", end: "faces that meet at the end", "edge-face": "a virtual edge of A meets a face of B", "face-edge": "a virtual edge of B meets a face of A", "edge-edge": "a moving edge meets an edge", inside: "one body lies inside the other" }[x.found] || x.found}${x.met ? ` (face ${x.met[0]} of A, face ${x.met[1]} of B)` : ""}.`,
     );
-    if (c.label[i] === "clear") lines.push("The certificate says that nothing meets.");
+    if (c.label[i] === "clear")
+      lines.push(c.touching[i] ? "The certificate says that the surfaces share a point and no more." : "The certificate says that nothing meets.");
   } else if (c.label[i] === "hit") {
     lines.push(x.stopped ? `It answered clear before it looked at a face: ${x.stopped}.` : "It answered clear.");
     if (x.should) {
@@ -170,7 +172,7 @@ function verdicts(i, method) {
     }))
     .filter((r) => r.letter !== "." && !r.detail.startsWith("does not answer"));
   const sweep = D.cases.question[i] !== "overlap",
-    rank = { m: 0, f: 1, e: 2, t: 3, c: 4, r: 5, n: 6, u: 7 };
+    rank = { m: 0, f: 1, e: 2, t: 3, c: 4, b: 5, r: 6, n: 7, u: 8 };
   const silent = D.labels.length - rows.length;
   return el(
     "div",

@@ -9,6 +9,7 @@ import experiments.scenarios.feature_gap
 from experiments.scenario import Draft, Scenario, ScenarioError, snap
 from experiments.scenarios import get, load_file, scenarios
 from experiments.shapes import box
+from experiments.truth.label import Truth
 from ofg import Body, Pose
 
 FAMILIES = scenarios()
@@ -56,6 +57,16 @@ def test_scenario_says_what_it_is(scenario):
 def test_ids_are_unique_over_all_families():
     ids = [s.case(0, level, i).id for s in FAMILIES.values() for level in s.levels[:2] for i in range(2)]
     assert len(set(ids)) == len(ids)
+
+
+@pytest.mark.parametrize("word, truth", [
+    ("touching", Truth("clear", touching=True)), ("clear", Truth("clear", touching=True)), ("hit", Truth("hit")),
+    ("start-overlap", Truth("hit", start="hit")), ("uncertain", Truth("uncertain"))])
+def test_what_is_drawn_again(word, truth):
+    assert Scenario("mine", "overlap", "e", "a", (1.0,), None, (word,)).useless(truth)
+    assert not Scenario("mine", "overlap", "e", "a", (1.0,), None, (word,)).useless(Truth("clear" if word != "clear" else "hit"))
+    with pytest.raises(ValueError, match="redraw_if takes"):
+        Scenario("mine", "overlap", "e", "a", (1.0,), None, ("touch",))
 
 
 def test_unknown_level_and_name_say_what_there_is():
