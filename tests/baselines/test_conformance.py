@@ -27,6 +27,8 @@ KNOWN_DEFECTS = {
     ("ipctk-ccd", TURNS): "by default one chord stands for the whole turn",
     ("ofg", TURNS): "as the article has it, virtual edges are chords: at 170 degrees they cut through the circle",
     ("brute-force", TURNS): "its virtual edges are chords, as OFG's",
+    ("ofg", ABOUT): "virtual edges are chords: about a point ten lengths off the arc leaves them by more than the cube's size",
+    ("brute-force", ABOUT): "its virtual edges are chords, as OFG's",
 }
 
 # Asked with other parameters than the default, which would take minutes.
