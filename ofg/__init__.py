@@ -12,7 +12,7 @@ from .algorithm import (
     translational_sweep,
 )
 from .answer import COUNTS, FOUND, Answer, Answers
-from .body import Body, BodyError
+from .body import Body, BodyError, BodyWarning
 from .decomposition import decompose
 from .motion import Motion
 from .options import REPAIRS, repair_options
@@ -24,6 +24,7 @@ __all__ = [
     "Answers",
     "Body",
     "BodyError",
+    "BodyWarning",
     "COUNTS",
     "FOUND",
     "Motion",

@@ -160,7 +160,11 @@ def solid(body: Body) -> _core.Solid:
         _SOLIDS.move_to_end(key)
         return _SOLIDS[key]
     made = _core.Solid(
-        body.vertices, body.faces, body.kind == "convex", [p.vertices for p in body.pieces], [p.faces for p in body.pieces]
+        body.vertices,
+        body.broad_faces,
+        body.kind == "convex",
+        [p.vertices for p in body.pieces],
+        [p.faces for p in body.pieces],
     )
     _SOLIDS[key] = made
     if len(_SOLIDS) > _KEPT_SOLIDS:

@@ -11,20 +11,23 @@ import numpy as np
 import trimesh
 from scipy.spatial import ConvexHull, QhullError
 
+from . import exact, meshfile, solid, surface, volume, winding
+from .solid import BodyError, BodyWarning
 
-class BodyError(ValueError):
-    """A mesh that cannot be a body; the message names the body, the fault and the remedy."""
+__all__ = ["Body", "BodyError", "BodyWarning"]
 
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """Make one with Body.convex, Body.mesh, Body.union, Body.from_trimesh or Body.from_file, not directly.
+    """Make one with Body.convex, mesh, union, from_trimesh or from_file, not directly.
 
-    kind: what the solid is. "convex": the convex hull of `vertices`; "mesh": what the closed surface (vertices, faces)
-    encloses; "union": the union of the convex `pieces`.
+    kind: what the solid is. "convex": the convex hull of `vertices`; "mesh": what the closed
+    surface (vertices, faces) encloses; "union": the union of the convex `pieces`.
     vertices: (n, 3) float64, in the body's frame (rotations turn about its origin).
-    faces: (m, 3) int32, outward (counter-clockwise from outside). Of a union: those of all its pieces, one after another.
-    pieces: the convex bodies of a union; a convex body is its own only piece; a mesh has none (see `decompose`).
+    faces: (m, 3) int32, outward (counter-clockwise from outside). Of a union: those of all its
+    pieces, one after another.
+    pieces: the convex bodies of a union; a convex body is its own only piece; a mesh has none (see
+    `decompose`).
     """
 
     kind: str
@@ -35,58 +38,150 @@ class Body:
 
     @classmethod
     def convex(cls, vertices, name: str = "body") -> "Body":
-        """The convex hull of (n, 3) points. Points inside the hull are dropped. BodyError if flat or not finite."""
-        v = _points(vertices, name)
+        """The convex hull of (n, 3) points; those inside it are dropped. BodyError if flat."""
+        v = solid.points(vertices, f"Body '{name}'")
         try:
             hull = ConvexHull(v, qhull_options="QbB Qt Pp")
         except QhullError as error:
-            raise BodyError(f"Body '{name}': its {len(v)} vertices have no volume ({_first_line(error)}). A convex body "
-                            "needs at least four vertices that are not all in one plane.") from error
+            raise BodyError(
+                f"Body '{name}': its {len(v)} vertices have no volume ({_first_line(error)}). A"
+                " convex body needs at least four vertices that are not all in one plane."
+            ) from error
         used, faces = np.unique(_wound_alike(hull.simplices, hull.neighbors), return_inverse=True)
         v, faces = v[used], faces.reshape(-1, 3)
         return cls._of("convex", v, faces if _volume(v, faces) > 0 else faces[:, ::-1], (), name)
 
     @classmethod
     def mesh(cls, vertices, faces, name: str = "body") -> "Body":
-        """A closed triangle mesh with outward faces, convex or not. BodyError if open, inside-out or not finite."""
-        v, f = _points(vertices, name), _faces(faces, len(vertices), name)
-        _require_closed(v, f, name)
-        return cls._of("mesh", v, f, (), name)
+        """What a closed triangle mesh encloses: the points with a winding number not 0.
+
+        vertices: (n, 3) numbers. faces: (m, 3) indices, outward. Vertices at exactly one place are
+        merged and unused ones dropped; faces that cancel in pairs are dropped; faces without area
+        come last. Faces that are all inward are turned, with a BodyWarning. BodyError if open, not
+        finite, flat, or in part inside-out.
+        """
+        who = f"Body '{name}'"
+        v = solid.points(vertices, who)
+        return cls._of("mesh", *solid.closed(v, solid.triangles(faces, len(v), who), who), (), name)
 
     @classmethod
     def union(cls, pieces, name: str = "body") -> "Body":
-        """The union of convex bodies, which may overlap and share a frame."""
-        pieces = tuple(pieces)
-        if not pieces or any(p.kind != "convex" for p in pieces):
-            raise BodyError(f"Body '{name}': a union needs one convex piece or more; make each with Body.convex.")
+        """The union of convex bodies, which may overlap and share a frame. BodyError for others."""
+        try:
+            pieces = tuple(pieces)
+        except TypeError as error:
+            raise BodyError(
+                f"Body '{name}': a union needs a list of convex bodies, not"
+                f" {type(pieces).__name__}; make each with Body.convex."
+            ) from error
+        wrong = [p for p in pieces if not isinstance(p, Body) or p.kind != "convex"]
+        if not pieces or wrong:
+            what = f"it was given {_what(wrong[0])}" if wrong else "it was given none"
+            raise BodyError(
+                f"Body '{name}': a union needs one convex piece or more, and {what}; make each with"
+                " Body.convex."
+            )
         first = np.cumsum([0] + [len(p.vertices) for p in pieces])
         faces = np.concatenate([p.faces + offset for p, offset in zip(pieces, first)])
         return cls._of("union", np.concatenate([p.vertices for p in pieces]), faces, pieces, name)
 
     @classmethod
-    def from_trimesh(cls, mesh: trimesh.Trimesh, name: str | None = None) -> "Body":
-        """A convex body if the mesh is convex, else a closed mesh body."""
-        name = name or mesh.metadata.get("name") or "trimesh"
-        checked = cls.mesh(mesh.vertices, mesh.faces, name)
-        return cls.convex(mesh.vertices, name) if mesh.is_convex else checked
+    def from_trimesh(
+        cls, mesh, name: str | None = None, *, split: bool = False, weld: float = 0.0
+    ) -> "Body":
+        """A convex body if that is proved, else a mesh body. mesh: a Trimesh or Scene.
+
+        Convex means that every vertex is exactly on or behind the plane of every face; a mesh that
+        is concave by a rounding error is a mesh body (Body.convex makes its hull).
+        split: keep objects and shells apart, as the convex pieces of a union; BodyError if one is
+        concave or a cavity. weld: first merge vertices up to this length apart. Else as Body.mesh.
+        """
+        given = getattr(mesh, "metadata", None) or {}
+        name = name or given.get("name") or "trimesh"
+        who = f"Body '{name}'"
+        return cls._from_parts(meshfile.parts_of(mesh, who), name, who, split, weld)
 
     @classmethod
-    def from_file(cls, path, name: str | None = None) -> "Body":
-        """Any triangle mesh file that trimesh reads (OBJ, STL, PLY, OFF, GLB, ...); vertices at one place are merged."""
+    def from_file(
+        cls,
+        path,
+        name: str | None = None,
+        *,
+        split: bool = False,
+        weld: float = 0.0,
+        most: int = meshfile.MOST_BYTES,
+    ) -> "Body":
+        """The body in a triangle mesh file: OBJ, STL, PLY, OFF, GLB, and others that trimesh reads.
+
+        Kind, split and weld as of from_trimesh. The file may be gzipped, bzipped or in a ZIP. most:
+        bytes that it may hold when unpacked. BodyError names the file, the fault and the remedy.
+        """
         path = Path(path)
-        if not path.is_file():
-            raise BodyError(f"Mesh file {path} does not exist; give the path of a mesh file that trimesh can read.")
-        try:
-            mesh = trimesh.load(path, force="mesh", process=True)
-            mesh.merge_vertices(merge_tex=True, merge_norm=True)
-        except Exception as error:
-            raise BodyError(f"Mesh file {path} cannot be read ({_first_line(error)}). Give a triangle mesh in a format "
-                            "that trimesh reads: OBJ, STL, PLY, OFF, GLB.") from error
-        return cls.from_trimesh(mesh, name or path.stem)
+        return cls._from_parts(
+            meshfile.read(path, most),
+            name or meshfile.name_of(path),
+            f"Mesh file {path}",
+            split,
+            weld,
+        )
+
+    @classmethod
+    def _from_parts(cls, parts, name, who, split, weld) -> "Body":
+        parts = [(solid.points(v, who, 1), f) for v, f in parts]
+        parts = [solid.welded(v, solid.triangles(f, len(v), who), weld, who) for v, f in parts]
+        first = np.cumsum([0] + [len(v) for v, _ in parts])
+        v, f = np.concatenate([v for v, _ in parts]), np.concatenate(
+            [f + n for (_, f), n in zip(parts, first)]
+        )
+        if split:
+            solid.require_balance(*surface.merged(v, f), who)
+            return cls._split(parts, name, who)
+        v, f = solid.closed(v, f, who)
+        return cls._proved_convex(v, f, name, who) or cls._of("mesh", v, f, (), name)
+
+    @classmethod
+    def _proved_convex(cls, v, f, name, who) -> "Body | None":
+        """The convex body that a closed outward surface bounds; None if that is not proved."""
+        if not solid.is_convex(v, f):
+            return None
+        hull = cls.convex(v, name)
+        own, its = winding.signed_volume(v, f), winding.signed_volume(hull.vertices, hull.faces)
+        if own > 1.5 * its:  # the surface covers its hull twice or more
+            return None
+        if abs(own - its) > 1e-6 * its + 1e-13 * hull.size**3:
+            raise BodyError(
+                f"{who}: the mesh is convex with the volume {own:.9g}, but its hull has {its:.9g}. "
+                "Give Body.convex the points that are meant."
+            )
+        return hull
+
+    @classmethod
+    def _split(cls, parts, name, who) -> "Body":
+        shells = [shell for part in parts for shell in surface.apart(*part)]
+        for i, (v, f) in enumerate(shells):
+            solid.require_balance(v, f, f"{who}, part {i + 1} of {len(shells)} by itself")
+        solid.require_volume(shells, who)
+        signs = [exact.volume_sign(v, f) for v, f in shells]
+        if all(sign < 0 for sign in signs):
+            solid.notice_turned(who)
+            shells, signs = [(v, f[:, ::-1]) for v, f in shells], [1] * len(shells)
+        pieces = []
+        for i, ((v, f), sign) in enumerate(zip(shells, signs)):
+            of = f"{who}, part {i + 1} of {len(shells)}"
+            pieces.append(cls._proved_convex(v, f, f"{name}#{i}", of) if sign > 0 else None)
+            if pieces[-1] is None:
+                raise BodyError(
+                    f"{of} is {'concave' if sign > 0 else 'inside-out or a cavity'}, and a union is"
+                    " made of convex pieces. Read it without split, as a mesh, and make pieces of"
+                    " that with ofg.decompose."
+                )
+        return cls.union(pieces, name)
 
     @classmethod
     def _of(cls, kind, vertices, faces, pieces, name) -> "Body":
-        vertices, faces = np.array(vertices, np.float64, order="C"), np.array(faces, np.int32, order="C")
+        vertices, faces = np.array(vertices, np.float64, order="C"), np.array(
+            faces, np.int32, order="C"
+        )
         vertices.setflags(write=False)
         faces.setflags(write=False)
         body = cls(kind, vertices, faces, pieces, name)
@@ -96,7 +191,7 @@ class Body:
 
     @cached_property
     def digest(self) -> str:
-        """Content hash (hex): equal for bodies of equal kind, vertices, faces and pieces, whatever their names."""
+        """Content hash (hex): equal for bodies of equal kind and arrays, whatever their names."""
         h = hashlib.sha256(self.kind.encode())
         for part in self.pieces if self.kind == "union" else (self,):
             h.update(np.int64([len(part.vertices), len(part.faces)]).tobytes())
@@ -106,7 +201,7 @@ class Body:
 
     @cached_property
     def centre(self) -> np.ndarray:
-        """(3,) mean of the vertices; of a union, the mean of its pieces' centres (OFG's object-level centre)."""
+        """(3,) mean of the vertices; of a union, the mean of its pieces' centres."""
         points = [p.centre for p in self.pieces] if self.kind == "union" else self.vertices
         return np.mean(points, axis=0)
 
@@ -114,6 +209,36 @@ class Body:
     def radius(self) -> float:
         """Largest distance from the body frame's origin to a vertex."""
         return float(np.linalg.norm(self.vertices, axis=1).max())
+
+    @cached_property
+    def volume(self) -> float:
+        """Volume of the solid, in cubed units: of the points with a winding number not 0.
+
+        Where shells lie in one another, overlap or cut each other, each point counts once; so do
+        the points of a union's pieces. What is on each side of a face is decided exactly, the sum
+        is in doubles. BodyError if more than some thousand pairs of faces cut each other.
+        """
+        if self.kind == "convex":
+            return winding.signed_volume(self.vertices, self.faces)
+        try:
+            return volume.solid_volume(*surface.settled(*surface.merged(self.vertices, self.faces)))
+        except volume.TooManyCuts as error:
+            raise BodyError(
+                f"Body '{self.name}': its volume is not worked out, because {error}."
+            ) from error
+
+    @cached_property
+    def broad_faces(self) -> np.ndarray:
+        """(m, 3) the faces without those at the end that have no area: all that can be touched.
+
+        Faces without area close a mesh where a vertex lies on an edge; they add no point to it.
+        """
+        broad = (
+            ~exact.flat(self.vertices, self.faces)
+            if self.kind == "mesh"
+            else np.ones(len(self.faces), bool)
+        )
+        return self.faces[: np.flatnonzero(broad)[-1] + 1] if broad.any() else self.faces
 
     @cached_property
     def size(self) -> float:
@@ -125,47 +250,14 @@ class Body:
 
     def __repr__(self) -> str:
         pieces = f", {len(self.pieces)} pieces" if self.kind == "union" else ""
-        return f"Body('{self.name}', {self.kind}, {len(self.vertices)} vertices, {len(self.faces)} faces{pieces})"
+        return (
+            f"Body('{self.name}', {self.kind}, {len(self.vertices)} vertices, {len(self.faces)}"
+            f" faces{pieces})"
+        )
 
 
-def _points(vertices, name: str) -> np.ndarray:
-    v = np.asarray(vertices, np.float64)
-    if v.ndim != 2 or v.shape[1] != 3 or len(v) < 4:
-        raise BodyError(f"Body '{name}': vertices have shape {v.shape}; give at least four points as an (n, 3) array.")
-    bad = np.flatnonzero(~np.isfinite(v).all(axis=1))
-    if len(bad):
-        raise BodyError(f"Body '{name}': vertex {bad[0]} is {v[bad[0]]}, which is not finite ({len(bad)} such of {len(v)}). "
-                        "Remove or repair these vertices before making a body of them.")
-    return v
-
-
-def _faces(faces, n: int, name: str) -> np.ndarray:
-    f = np.asarray(faces)
-    if f.ndim != 2 or f.shape[1] != 3 or len(f) < 4 or not np.issubdtype(f.dtype, np.integer):
-        raise BodyError(f"Body '{name}': faces have shape {f.shape} and type {f.dtype}; give triangles as an (m, 3) array of "
-                        "vertex indices.")
-    if f.min() < 0 or f.max() >= n:
-        raise BodyError(f"Body '{name}': a face names vertex {f.max() if f.max() >= n else f.min()}, but the vertices are 0 to {n - 1}.")
-    return f
-
-
-def _require_closed(v: np.ndarray, f: np.ndarray, name: str) -> None:
-    """Every directed edge once and its reverse once; positive volume."""
-    edges = np.concatenate([f[:, [0, 1]], f[:, [1, 2]], f[:, [2, 0]]]).astype(np.int64)
-    key, reverse = edges[:, 0] * len(v) + edges[:, 1], edges[:, 1] * len(v) + edges[:, 0]
-    lonely = int((~np.isin(key, reverse)).sum())
-    if lonely:
-        raise BodyError(f"Body '{name}': the mesh is open or its faces disagree in orientation; {lonely} of {len(edges)} edges "
-                        "have no opposite partner. Close it and orient it outward (trimesh.repair.fill_holes, fix_normals; merge "
-                        "doubled vertices first with merge_vertices), or take its hull with Body.convex.")
-    if len(np.unique(key)) != len(key):
-        raise BodyError(f"Body '{name}': the mesh is not a manifold; an edge belongs to more than two faces. Split it there, "
-                        "decompose it into convex pieces (Body.union), or take its hull with Body.convex.")
-    volume = _volume(v, f)
-    if not volume > 0:
-        fault = "inside-out" if volume < 0 else "without volume"
-        raise BodyError(f"Body '{name}': the mesh is {fault} (signed volume {volume:.3g}). Faces must run counter-clockwise "
-                        "seen from outside: reverse them with faces[:, ::-1].")
+def _what(thing) -> str:
+    return f"{thing!r}" if isinstance(thing, Body) else f"a {type(thing).__name__}"
 
 
 def _volume(v: np.ndarray, f: np.ndarray) -> float:
@@ -174,10 +266,11 @@ def _volume(v: np.ndarray, f: np.ndarray) -> float:
 
 
 def _wound_alike(triangles: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
-    """Qhull's triangles, turned over where needed so that neighbours run through their common edge in opposite directions.
+    """Qhull's triangles, turned so that neighbours run through their common edge in opposite
+    directions.
 
-    By neighbourhood and not by normals, and without trimesh, which merges vertices closer than 1e-8 whatever the scale:
-    bodies of 1e-6, walls of 1e-9 and triangles without area come out whole.
+    By neighbourhood and not by normals, and without trimesh, which merges vertices closer than 1e-8
+    whatever the scale: bodies of 1e-6, walls of 1e-9 and triangles without area come out whole.
     """
     wound = triangles.tolist()
     seen, front = {0}, [0]

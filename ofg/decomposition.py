@@ -5,6 +5,8 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import subprocess
+import sys
 import tempfile
 import zipfile
 from pathlib import Path
@@ -12,26 +14,51 @@ from pathlib import Path
 import numpy as np
 import platformdirs
 
+from . import exact, surface, winding
 from .body import Body, BodyError
 
+SECONDS = 300.0  #: that CoACD may take; most bodies need less than ten
+SAMPLES = 400  #: points of the body at which the pieces are compared with it
+COVERED = 0.9  #: share of these that must be in a piece, of each shell half
+FULL = (0.85, 3.0)  #: the pieces' volumes in sum, as a share of the body's
 
-def decompose(body: Body, *, threshold: float = 0.05, max_pieces: int = -1, seed: int = 0, thin: int = 0) -> Body:
-    """A union of convex pieces that approximates a mesh body. A convex body or a union is returned as it is.
 
-    threshold: CoACD's concavity, 0.01 (many pieces) to 1. max_pieces: -1 for no limit. seed: the same seed gives the same pieces.
-    thin: if positive, each piece is reduced to the vertices that support it in that many directions (the thinned piece lies inside it).
-    The result is kept in the user's cache folder, or in $OFG_CACHE, by the content of the mesh and all parameters.
-    Raises BodyError where CoACD finds no pieces with a volume. Source: Wei et al., "Approximate convex decomposition for 3D meshes with
-    collision-aware concavity and tree search", SIGGRAPH 2022.
+def decompose(
+    body: Body,
+    *,
+    threshold: float = 0.05,
+    max_pieces: int = -1,
+    seed: int = 0,
+    thin: int = 0,
+    seconds: float = SECONDS,
+) -> Body:
+    """A union of convex pieces that approximates a mesh body; other bodies come back as they are.
+
+    threshold: CoACD's concavity, 0.01 (many pieces) to 1. max_pieces: -1 for no limit. seed: the
+    same seed gives the same pieces. thin: if positive, each piece is reduced to the vertices that
+    support it in that many directions (the thinned piece lies inside it). seconds: CoACD runs in a
+    process of its own, which is ended after that time.
+    The result is kept in the user's cache folder, or in $OFG_CACHE, by the content of the mesh and
+    all parameters but the time.
+    Raises BodyError where CoACD takes longer, finds no pieces with a volume, or leaves out a part
+    of the body (pieces are compared with it by volume, and at points in each shell).
+    Source: Wei et al., "Approximate convex decomposition for 3D meshes with collision-aware
+    concavity and tree search", SIGGRAPH 2022.
     """
     if body.kind != "mesh":
         return body
     if not 0.01 <= threshold <= 1:
-        raise ValueError(f"threshold = {threshold} must lie in [0.01, 1]: CoACD's concavity, small for many pieces.")
+        raise ValueError(
+            f"threshold = {threshold} must lie in [0.01, 1]: CoACD's concavity, small for many"
+            " pieces."
+        )
+    if not seconds > 0:
+        raise ValueError(f"seconds = {seconds} must be more than 0: the time that CoACD may take.")
     path = kept_at(body, threshold=threshold, max_pieces=max_pieces, seed=seed, thin=thin)
     hulls = _load(path)
     if hulls is None:
-        hulls = _coacd(body, threshold, max_pieces, seed)
+        hulls = _coacd(body, threshold, max_pieces, seed, seconds)
+        _require_alike(body, [Body.convex(v) for v in hulls])
         if thin:
             hulls = [supports(v, thin) for v in hulls]
         _store(path, hulls)
@@ -39,10 +66,21 @@ def decompose(body: Body, *, threshold: float = 0.05, max_pieces: int = -1, seed
     return Body.union(pieces, body.name)
 
 
-def kept_at(body: Body, *, threshold: float = 0.05, max_pieces: int = -1, seed: int = 0, thin: int = 0) -> Path:
-    """Where `decompose` with the same arguments keeps its result; the file exists once it was asked for."""
-    parameters = {"threshold": threshold, "max_pieces": max_pieces, "seed": seed, "thin": thin, "coacd": _coacd_version()}
-    key = hashlib.sha256((body.digest + json.dumps(parameters, sort_keys=True)).encode()).hexdigest()[:24]
+def kept_at(
+    body: Body, *, threshold: float = 0.05, max_pieces: int = -1, seed: int = 0, thin: int = 0
+) -> Path:
+    """Where `decompose` with the same arguments keeps its result, once it was asked for."""
+    parameters = {
+        "threshold": threshold,
+        "max_pieces": max_pieces,
+        "seed": seed,
+        "thin": thin,
+        "coacd": _coacd_version(),
+        "compared": 1,
+    }
+    key = hashlib.sha256(
+        (body.digest + json.dumps(parameters, sort_keys=True)).encode()
+    ).hexdigest()[:24]
     return cache_folder() / f"pieces-{key}.npz"
 
 
@@ -52,7 +90,9 @@ def cache_folder() -> Path:
 
 
 def supports(vertices: np.ndarray, directions: int) -> np.ndarray:
-    """(m, 3): those of (n, 3) points that are farthest in one of about `directions` directions, spread on a Fibonacci sphere."""
+    """(m, 3): those of (n, 3) points that are farthest in one of about `directions` directions.
+
+    The directions are spread on a Fibonacci sphere."""
     i = np.arange(directions) + 0.5
     z, turn = 1 - 2 * i / directions, np.pi * (1 + 5**0.5) * i
     r = np.sqrt(1 - z * z)
@@ -61,22 +101,129 @@ def supports(vertices: np.ndarray, directions: int) -> np.ndarray:
     return vertices[np.unique(np.argmax(vertices @ np.concatenate([axes, sphere]).T, axis=0))]
 
 
-def _coacd(body: Body, threshold: float, max_pieces: int, seed: int) -> list[np.ndarray]:
-    import coacd  # here: it takes a second to import, and most sessions never decompose
-
-    coacd.set_log_level("error")
-    parts = coacd.run_coacd(coacd.Mesh(body.vertices, body.faces), threshold=threshold, max_convex_hull=max_pieces, seed=seed)
+def _coacd(
+    body: Body, threshold: float, max_pieces: int, seed: int, seconds: float
+) -> list[np.ndarray]:
+    v, f = _outside(body)
     hulls = []
-    for vertices, _ in parts:
+    for part in _run_apart(
+        body.name,
+        seconds,
+        vertices=v,
+        faces=f,
+        threshold=threshold,
+        max_pieces=max_pieces,
+        seed=seed,
+    ):
         try:
-            hulls.append(Body.convex(vertices).vertices)
+            hulls.append(Body.convex(part).vertices)
         except BodyError:
             continue  # a piece as flat as a sheet has no interior to collide with
     if not hulls:
         raise BodyError(
-            f"Body '{body.name}': CoACD found no piece with a volume. Repair the mesh (trimesh.repair), or take its hull with Body.convex."
+            f"Body '{body.name}': CoACD found no piece with a volume. Repair the mesh"
+            " (trimesh.repair), or take its hull with Body.convex."
         )
     return hulls
+
+
+def _outside(body: Body) -> tuple[np.ndarray, np.ndarray]:
+    """The surface without what has the solid on both sides, such as a shell in another: CoACD goes
+    on for minutes about it. As it is where nothing of the kind is found."""
+    if surface.patches(body.faces).max() == 0:
+        return body.vertices, body.faces
+    try:
+        sides = winding.bounding(body.vertices, body.faces)
+    except winding.Unclear:
+        return body.vertices, body.faces
+    f = body.faces[(sides != 0) | exact.flat(body.vertices, body.faces)]
+    if len(f) == len(body.faces) or not len(f) or len(surface.open_edges(f)):
+        return body.vertices, body.faces
+    return surface.compact(body.vertices, f)
+
+
+def _run_apart(name: str, seconds: float, **given) -> list[np.ndarray]:
+    """CoACD's pieces as arrays of points, from a process of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        there, back = Path(folder, "given.npz"), Path(folder, "made.npz")
+        np.savez(there, **given)
+        script = Path(__file__).with_name("coacd_child.py")
+        command = [sys.executable, "-P", str(script), str(there), str(back), str(seconds)]
+        try:
+            done = subprocess.run(
+                command, capture_output=True, text=True, errors="replace", timeout=seconds
+            )
+        except subprocess.TimeoutExpired as error:  # the process is killed by then
+            raise BodyError(
+                f"Body '{name}': CoACD took more than {seconds:g} s and was ended. Simplify the"
+                " mesh, give a larger threshold or more seconds, or ask the mesh undivided."
+            ) from error
+        hulls = _load(back)
+        if hulls is None:
+            last = (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1][:150]
+            raise BodyError(
+                f"Body '{name}': CoACD failed ({last}). Repair the mesh (trimesh.repair), or ask it"
+                " undivided."
+            )
+        return hulls
+
+
+def _require_alike(body: Body, pieces: list[Body]) -> None:
+    """BodyError where the pieces are not nearly the body: another volume, or points left out."""
+    remedy = (
+        "Give a smaller threshold or another seed, keep shells that cut each other apart"
+        " (split=True of Body.from_file), or ask the mesh undivided."
+    )
+    share = sum(p.volume for p in pieces) / body.volume
+    if not FULL[0] <= share <= FULL[1]:
+        raise BodyError(
+            f"Body '{body.name}': the volume of CoACD's pieces is {share:.2f} of the body's, which"
+            f" is another body. {remedy}"
+        )
+    points, shell = _inner_points(body)
+    held = np.zeros(len(points), bool)
+    for p in pieces:
+        n, d = _planes(p)
+        held |= (points @ n.T <= d + 1e-9 * body.size).all(axis=1)
+    of_shell = np.bincount(shell, held) / np.maximum(np.bincount(shell), 1)
+    lost = np.flatnonzero((of_shell < COVERED / 2) & (np.bincount(shell) > 0))
+    if len(lost) or held.mean() < COVERED:
+        what = f"shell {lost[0] + 1}" if len(lost) else f"{1 - held.mean():.0%} of the body"
+        raise BodyError(f"Body '{body.name}': CoACD's pieces leave out {what}. {remedy}")
+
+
+def _inner_points(body: Body) -> tuple[np.ndarray, np.ndarray]:
+    """((n, 3) points in the body, (n,) the shell each is near): below faces spread over it."""
+    v, f = body.vertices, body.broad_faces
+    shell = surface.shells(body.faces)[: len(f)]
+    size = np.array(
+        [
+            np.linalg.norm(np.ptp(v[f[shell == i]].reshape(-1, 3), axis=0))
+            for i in range(shell.max() + 1)
+        ]
+    )
+    per = max(4, SAMPLES // len(size))
+    chosen = np.concatenate(
+        [
+            np.flatnonzero(shell == i)[:: -(-int((shell == i).sum()) // per)]
+            for i in range(len(size))
+        ]
+    )
+    corners = v[f[chosen]]
+    n = exact.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    below = (
+        corners.mean(axis=1)
+        - 0.02 * size[shell[chosen], None] * n / np.linalg.norm(n, axis=1)[:, None]
+    )
+    inside = winding.at(v, f, below) != 0
+    return below[inside], shell[chosen][inside]
+
+
+def _planes(piece: Body) -> tuple[np.ndarray, np.ndarray]:
+    a, b, c = (piece.vertices[piece.faces[:, i]] for i in range(3))
+    n = exact.cross(b - a, c - a)
+    n = n / np.maximum(np.linalg.norm(n, axis=1), 1e-300)[:, None]
+    return n, (n * a).sum(axis=1)
 
 
 def _coacd_version() -> str:
@@ -89,7 +236,13 @@ def _load(path: Path) -> list[np.ndarray] | None:
     try:
         with np.load(path, allow_pickle=False) as stored:
             return np.split(stored["vertices"], stored["splits"])
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):  # missing, or a file cut short: made anew
+    except (
+        OSError,
+        ValueError,
+        KeyError,
+        EOFError,
+        zipfile.BadZipFile,
+    ):  # missing, or a file cut short: made anew
         return None
 
 
@@ -97,5 +250,7 @@ def _store(path: Path, hulls: list[np.ndarray]) -> None:
     """Written beside and moved into place, so that nobody ever reads half a file."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".npz", delete=False) as file:
-        np.savez(file, vertices=np.concatenate(hulls), splits=np.cumsum([len(h) for h in hulls])[:-1])
+        np.savez(
+            file, vertices=np.concatenate(hulls), splits=np.cumsum([len(h) for h in hulls])[:-1]
+        )
     os.replace(file.name, path)

@@ -1,5 +1,8 @@
 """Decomposition: cached by content, the same for the same seed, and pieces that cover the body."""
 
+import multiprocessing
+import time
+
 import numpy as np
 import pytest
 import trimesh
@@ -38,6 +41,66 @@ def test_pieces_cover_the_body(hook, tmp_path, monkeypatch):
     union = ofg.decompose(hook)
     volume = sum(p.to_trimesh().volume for p in union.pieces)
     assert volume == pytest.approx(5.0, rel=0.05)
+
+
+CUBE = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+
+
+def pair(one, other):
+    """Two boxes in one mesh, both outward."""
+    hulls = [Body.convex(one), Body.convex(other)]
+    faces = np.concatenate([hulls[0].faces, hulls[1].faces + 8])
+    return Body.mesh(np.concatenate([h.vertices for h in hulls]), faces, "pair")
+
+
+def test_a_shell_inside_another_costs_nothing(tmp_path, monkeypatch):
+    """CoACD took more than 100 s for 24 faces; a shell with the solid on both sides is left out."""
+    monkeypatch.setenv("OFG_CACHE", str(tmp_path))
+    start = time.monotonic()
+    union = ofg.decompose(pair(CUBE * 2, CUBE), seconds=60)
+    assert union.volume == pytest.approx(64) and time.monotonic() - start < 60
+
+
+def test_shells_apart_are_all_kept(tmp_path, monkeypatch):
+    monkeypatch.setenv("OFG_CACHE", str(tmp_path))
+    assert ofg.decompose(pair(CUBE, CUBE * 0.01 + [9, 0, 0])).volume == pytest.approx(8 + 8e-6)
+
+
+def test_it_ends_after_the_time_given_also_in_a_daemon(hook, tmp_path, monkeypatch):
+    """Native code cannot be interrupted where it runs, and a daemon may not use multiprocessing."""
+    monkeypatch.setenv("OFG_CACHE", str(tmp_path))
+    start = time.monotonic()
+    with pytest.raises(ofg.BodyError, match="hook.*CoACD took more than 0.2 s.*larger threshold"):
+        ofg.decompose(hook, seconds=0.2)
+    assert time.monotonic() - start < 10 and not list(tmp_path.iterdir())
+    with pytest.raises(ValueError, match="seconds"):
+        ofg.decompose(hook, seconds=0)
+    fork = multiprocessing.get_context("fork")
+    process = fork.Process(target=ofg.decompose, args=(hook,), daemon=True)
+    process.start()
+    process.join(120)
+    assert process.exitcode == 0 and len(list(tmp_path.iterdir())) == 1
+
+
+@pytest.mark.parametrize("pieces, words", [
+    ([CUBE], "volume of CoACD's pieces is 0.50"),
+    ([CUBE, CUBE], "leave out shell 2"),
+    ([CUBE * 3], "another body"),
+])
+def test_pieces_that_are_another_body_are_an_error(tmp_path, monkeypatch, pieces, words):
+    """CoACD may drop a shell without a word."""
+    monkeypatch.setenv("OFG_CACHE", str(tmp_path))
+    monkeypatch.setattr(ofg.decomposition, "_run_apart", lambda *_, **__: pieces)
+    with pytest.raises(ofg.BodyError, match=f"pair.*{words}.*threshold.*undivided"):
+        ofg.decompose(pair(CUBE, CUBE + [9, 0, 0]))
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_failure_of_coacd_is_said(hook, tmp_path, monkeypatch):
+    monkeypatch.setenv("OFG_CACHE", str(tmp_path))
+    monkeypatch.setattr(ofg.decomposition.sys, "executable", "/bin/false")
+    with pytest.raises(ofg.BodyError, match="hook.*CoACD failed .exit code 1.*undivided"):
+        ofg.decompose(hook)
 
 
 def test_thinned_pieces_lie_inside():

@@ -19,7 +19,9 @@ bool inside_convex(const Mesh<T>& m, const Vec3<T>& p) {
   return true;
 }
 
-// By the winding number of a closed mesh (van Oosterom and Strackee 1983): the solid angles of its faces sum to 4 pi inside.
+// Is the winding number of a closed mesh not 0 (van Oosterom and Strackee 1983)? The solid angles
+// of its faces sum to 4 pi times that number, which is 2 where a shell lies in another, and negative
+// in one that is inside-out.
 template <class T>
 bool inside_closed(const Mesh<T>& m, const Vec3<T>& p) {
   const Vec3<T> d = p - m.centre;
@@ -31,13 +33,8 @@ bool inside_closed(const Mesh<T>& m, const Vec3<T>& p) {
     const double la = length(a), lb = length(b), lc = length(c);
     angle += std::atan2(triple(a, b, c), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
   }
-  return angle > 3.14159265358979323846;  // half of the full 2 pi: atan2 gives half of each solid angle
-}
-
-// A point that surely belongs to the solid: of a convex mesh its centre, of another its first vertex.
-template <class T>
-Vec3<T> own_point(const Mesh<T>& m) {
-  return m.convex ? m.centre : m.vertices[0];
+  // Half of the full 2 pi: atan2 gives half of each solid angle.
+  return std::abs(angle) > 3.14159265358979323846;
 }
 
 template <class T>
@@ -45,10 +42,17 @@ bool inside(const Mesh<T>& m, const Vec3<T>& p) {
   return m.convex ? inside_convex(m, p) : inside_closed(m, p);
 }
 
-// Does either solid hold the other's point? For solids whose surfaces do not meet this decides whether they overlap.
+// Does either solid hold a point of any part of the other? For solids whose surfaces do not meet
+// this decides whether they overlap: each part of a surface is then wholly inside the other or
+// outside.
 template <class T>
 bool one_inside_other(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& a_to_b) {
-  return inside(b, a_to_b(own_point(a))) || inside(a, a_to_b.inverse()(own_point(b)));
+  const Transform<T> b_to_a = a_to_b.inverse();
+  const auto in = [](const Mesh<T>& m, const Transform<T>& to_m) {
+    return [&](const Vec3<T>& p) { return inside(m, to_m(p)); };
+  };
+  return std::any_of(a.own_points.begin(), a.own_points.end(), in(b, a_to_b)) ||
+         std::any_of(b.own_points.begin(), b.own_points.end(), in(a, b_to_a));
 }
 
 }  // namespace ofg

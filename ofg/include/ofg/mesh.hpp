@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <unordered_map>
 #include <vector>
 
@@ -88,6 +89,30 @@ struct Blocks {
   }
 };
 
+// The first vertex of each part of a surface whose faces hang together by vertices, in the order of
+// the faces.
+inline std::vector<int> first_of_parts(const std::vector<std::array<int, 3>>& faces,
+                                       std::size_t n) {
+  std::vector<int> root(n), first;
+  std::iota(root.begin(), root.end(), 0);
+  const auto above = [&](int i) -> int& { return root[std::size_t(i)]; };
+  const auto find = [&](int i) {
+    while (above(i) != i) i = above(i) = above(above(i));
+    return i;
+  };
+  for (const auto& f : faces)
+    for (int i = 1; i < 3; ++i) {
+      const int a = find(f[0]), b = find(f[std::size_t(i)]);
+      above(std::max(a, b)) = std::min(a, b);  // so that a root is the least of its part
+    }
+  std::vector<char> seen(n);
+  for (const auto& f : faces) {
+    const int r = find(f[0]);
+    if (!seen[std::size_t(r)]) seen[std::size_t(r)] = 1, first.push_back(r);
+  }
+  return first;
+}
+
 // One triangle mesh. `convex` promises that it bounds a convex solid with outward faces.
 template <class T>
 struct Mesh {
@@ -101,6 +126,7 @@ struct Mesh {
   Cloud<T> cloud;                              // the vertices, for supports
   SupportMap supports;                         // the same, by table
   std::vector<T> face_radius;                  // from a face's centre to its farthest vertex, rounded up
+  std::vector<Vec3<T>> own_points;             // one point of the solid in each of its parts
   Vec3<T> centre;                              // mean of the vertices
   T radius = 0;                                // from `centre` to the farthest vertex, rounded up
   T extent = 0;                                // largest distance of a vertex from the frame's origin, rounded up
@@ -109,14 +135,20 @@ struct Mesh {
   Mesh() = default;
 
   // vertices: n x 3, faces: m x 3 indices into them, both row by row.
+  // A vertex that no face uses is no part of the body: the first one in use stands in its place.
   Mesh(const double* v, std::size_t n, const std::int32_t* f, std::size_t m, bool convex_) : convex(convex_) {
+    std::vector<char> used(n, char(m == 0));
+    for (std::size_t i = 0; i < 3 * m; ++i) used[std::size_t(f[i])] = 1;
+    const std::size_t first = std::size_t(std::find(used.begin(), used.end(), 1) - used.begin());
+    std::size_t count = 0;
     Vec3<double> sum;
     for (std::size_t i = 0; i < n; ++i) {
-      const Vec3<double> p{v[3 * i], v[3 * i + 1], v[3 * i + 2]};
-      sum = sum + p;
+      const double* at = v + 3 * (used[i] ? i : first);
+      const Vec3<double> p{at[0], at[1], at[2]};
+      if (used[i]) sum = sum + p, ++count;
       vertices.push(Vec3<T>(p));
     }
-    centre = Vec3<T>(sum * (1.0 / double(n)));
+    centre = Vec3<T>(sum * (1.0 / double(count)));
     for (std::size_t i = 0; i < n; ++i) {
       extent = std::fmax(extent, length(vertices[i]));
       radius = std::fmax(radius, length(vertices[i] - centre));
@@ -147,6 +179,9 @@ struct Mesh {
     for (std::size_t i = 0; i < n; ++i) cloud.push(vertices[i]);
     cloud.pad();
     supports = SupportMap(vertices.x.data(), vertices.y.data(), vertices.z.data(), int(n), centre, radius);
+    if (convex) own_points.push_back(centre);
+    if (!convex)
+      for (int i : first_of_parts(faces, n)) own_points.push_back(vertices[std::size_t(i)]);
   }
 
   int size() const { return int(faces.size()); }

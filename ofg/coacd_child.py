@@ -1,0 +1,45 @@
+"""Run CoACD in a process of its own, which can be ended: coacd_child.py IN.npz OUT.npz SECONDS.
+
+Native code that hangs cannot be interrupted in the process that it runs in. This file is run as a
+script and imports nothing of ofg, so that it starts fast.
+"""
+
+import signal
+import sys
+
+import numpy as np
+
+
+def end_with_parent() -> None:
+    """If the process that asked is killed, so is this one (Linux; elsewhere the alarm ends it)."""
+    if sys.platform == "linux":
+        import ctypes
+
+        pr_set_pdeathsig = 1
+        ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
+
+
+def main(given: str, made: str, seconds: str) -> None:
+    end_with_parent()
+    if hasattr(signal, "alarm"):
+        signal.alarm(
+            int(float(seconds)) + 5
+        )  # its default action ends the process, also in native code
+    import coacd
+
+    coacd.set_log_level("error")
+    with np.load(given) as x:
+        mesh = coacd.Mesh(x["vertices"], x["faces"])
+        parts = coacd.run_coacd(
+            mesh,
+            threshold=float(x["threshold"]),
+            max_convex_hull=int(x["max_pieces"]),
+            seed=int(x["seed"]),
+        )
+    splits = np.cumsum([len(v) for v, _ in parts])[:-1] if parts else np.empty(0, int)
+    vertices = np.concatenate([v for v, _ in parts]) if parts else np.empty((0, 3))
+    np.savez(made, vertices=vertices, splits=splits)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

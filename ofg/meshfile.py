@@ -1,0 +1,231 @@
+"""Mesh files as arrays: what they hold, read within a limit, or said in words why not."""
+
+from __future__ import annotations
+
+import bz2
+import gzip
+import io
+import json
+import re
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import trimesh
+
+from .solid import BodyError
+
+MOST_BYTES = 512 * 2**20  #: of a file when unpacked: some ten million triangles in a binary STL
+READ = ("obj", "stl", "ply", "off", "glb")  #: the formats that remedies name
+REMEDY = "Give a triangle mesh as OBJ, STL, PLY, OFF or GLB."
+
+# Formats that hold no triangles, or that nothing here reads, by what a user knows them as.
+FOREIGN = {
+    "a CAD file of exact surfaces, which holds no triangles": (
+        "step stp iges igs brep brp sat sab x_t x_b jt sldprt "
+        "sldasm ipt iam catpart catproduct prt 3dm f3d fcstd ifc dwg scad"
+    ),
+    "a drawing of curves, which holds no triangles": "dxf svg",
+    "a point cloud, which has no faces": "xyz pcd las laz e57 pts ptx",
+    "a packed file that is not unpacked here": "tar tgz 7z rar xz zst",
+    "a scene or mesh format that is not read here": (
+        "fbx blend max usd usda usdc usdz wrl x3d vtk vtp vtu msh 3ds lwo ma mb amf"
+    ),
+}
+# What trimesh needs for formats beyond those that it reads by itself.
+NEEDS = {
+    "3mf": "networkx lxml",
+    "3dxml": "networkx lxml pillow",
+    "dae": "pycollada",
+    "zae": "pycollada",
+}
+
+
+def read(path: Path, most: int = MOST_BYTES) -> list[tuple[np.ndarray, np.ndarray]]:
+    """(vertices (n, 3), faces (m, 3)) of each object in a mesh file, in its scene's frame.
+
+    most: bytes the file may have when unpacked. BodyError for what cannot be read.
+    """
+    who = f"Mesh file {path}"
+    if path.is_dir():
+        raise BodyError(f"{who} is a folder; give the path of a mesh file. {REMEDY}")
+    if not path.is_file():
+        raise BodyError(
+            f"{who} does not exist; give the path of a mesh file that trimesh can read."
+        )
+    kind = path.suffix.lower().lstrip(".")
+    _require_known(kind, who)
+    try:
+        _require_size(path.stat().st_size, most, who)
+        if kind in ("gz", "bz2"):
+            unpacked, kind = (gzip.open if kind == "gz" else bz2.open), Path(
+                path.stem
+            ).suffix.lower().lstrip(".")
+            _require_known(kind, who)
+            with unpacked(path, "rb") as stream:
+                data = stream.read(most + 1)
+            _require_size(len(data), most, who)
+        else:
+            data = path.read_bytes()
+        if data[:4] == b"PK\3\4":
+            _require_zip_size(data, most, who)
+        if kind == "zip":
+            return _unzipped(data, who)
+        if kind == "gltf":
+            return _loaded(None, kind, who, path, most)
+        return _loaded(data, kind, who)
+    except (OSError, EOFError, zipfile.BadZipFile) as error:
+        raise _unreadable(who, error) from error
+
+
+def name_of(path: Path) -> str:
+    """The file's name without what says its format."""
+    return Path(path.stem).stem if path.suffix.lower() in (".gz", ".bz2") else path.stem
+
+
+def parts_of(mesh, who: str) -> list[tuple[np.ndarray, np.ndarray]]:
+    """(vertices, faces) of a Trimesh, or of each in a Scene where it is placed, or BodyError."""
+    if isinstance(mesh, trimesh.Trimesh):
+        return [(np.array(mesh.vertices), np.array(mesh.faces))]
+    if isinstance(mesh, trimesh.PointCloud):
+        raise _cloud(len(mesh.vertices), who)
+    if not isinstance(mesh, trimesh.Scene):
+        raise BodyError(
+            f"{who}: it was given a {type(mesh).__name__}; give a trimesh.Trimesh, or arrays to"
+            " Body.mesh."
+        )
+    out, clouds = [], 0
+    for node in sorted(mesh.graph.nodes_geometry, key=_natural):
+        matrix, name = mesh.graph[node]
+        geometry = mesh.geometry[name]
+        if isinstance(geometry, trimesh.Trimesh) and len(geometry.faces):
+            out.append(_placed(np.array(geometry.vertices), np.array(geometry.faces), matrix))
+        else:
+            clouds += len(getattr(geometry, "vertices", ()))
+    if not out:
+        raise _cloud(clouds, who) if clouds else BodyError(f"{who}: it holds no faces. {REMEDY}")
+    return out
+
+
+def _placed(v, f, matrix):
+    if np.array_equal(matrix, np.eye(4)):
+        return v, f
+    mirrored = np.linalg.det(matrix[:3, :3]) < 0
+    return v @ matrix[:3, :3].T + matrix[:3, 3], f[:, ::-1] if mirrored else f
+
+
+def _natural(name):
+    """part10 after part9."""
+    return [(int(x), "") if x.isdigit() else (0, x) for x in re.split(r"(\d+)", str(name))]
+
+
+def _loaded(data: bytes | None, kind: str, who: str, path: Path | None = None, most: int = 0):
+    """By trimesh, as the file has it: nothing merged, dropped or repaired."""
+    if data is not None and data.lstrip()[:12] == b"ISO-10303-21":
+        _require_known("step", who)
+    options = {"split_objects": True, "skip_materials": True} if kind == "obj" else {}
+    try:
+        if path is not None:
+            _require_buffers(path, most, who)
+            scene = trimesh.load_scene(path, process=False)
+        else:
+            scene = trimesh.load_scene(
+                io.BytesIO(_decodable(data, kind)), file_type=kind, process=False, **options
+            )
+    except ImportError as error:
+        if kind not in NEEDS:
+            raise _unreadable(who, error) from error
+        raise BodyError(
+            f"{who}: {kind.upper()} files need Python packages that are not installed: pip install"
+            f" {NEEDS[kind]}. Or export the mesh in another format. {REMEDY}"
+        ) from error
+    except BodyError:
+        raise
+    except Exception as error:
+        raise _unreadable(who, error) from error
+    return parts_of(scene, who)
+
+
+def _unzipped(data: bytes, who: str):
+    out = []
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        for name in sorted(archive.namelist(), key=_natural):
+            kind = Path(name).suffix.lower().lstrip(".")
+            if kind in READ and not Path(name).name.startswith("."):
+                out += _loaded(archive.read(name), kind, f"{who}, {name}")
+    if not out:
+        raise BodyError(f"{who}: the archive holds no mesh file. {REMEDY}")
+    return out
+
+
+def _decodable(data: bytes, kind: str) -> bytes:
+    """Bytes that trimesh can decode: comments and names in Latin-1 or UTF-16 stop no reading."""
+    if kind == "ply":
+        head, mark, body = data.partition(b"end_header")
+        return bytes(b if b < 128 else 63 for b in head) + mark + body
+    if kind not in ("obj", "off", "stl"):
+        return data
+    if (
+        kind == "stl"
+        and len(data) >= 84
+        and len(data) == 84 + 50 * int.from_bytes(data[80:84], "little")
+    ):
+        return bytes(80) + data[80:]
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return data.decode("utf-16", errors="replace").encode()
+    try:
+        return data.decode("utf-8-sig").encode()
+    except UnicodeDecodeError:
+        return data.decode("latin-1").encode()
+
+
+def _require_known(kind: str, who: str) -> None:
+    for what, kinds in FOREIGN.items():
+        if kind in kinds.split():
+            remedy = (
+                "Unpack it and give the mesh file in it."
+                if "packed" in what
+                else f"Export a mesh from it. {REMEDY}"
+            )
+            if "cloud" in what:
+                remedy = (
+                    "Take the hull of the points with Body.convex, or reconstruct a surface first."
+                )
+            raise BodyError(f"{who} is {what}. {remedy}")
+
+
+def _require_size(size: int, most: int, who: str) -> None:
+    if size > most:
+        raise BodyError(
+            f"{who} holds more than {most / 2**20:.0f} MiB when unpacked, which is the limit."
+            " Simplify the mesh, or give from_file a larger limit: most=BYTES."
+        )
+
+
+def _require_zip_size(data: bytes, most: int, who: str) -> None:
+    """By the archive's directory, before anything is unpacked."""
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        _require_size(sum(entry.file_size for entry in archive.infolist()), most, who)
+
+
+def _require_buffers(path: Path, most: int, who: str) -> None:
+    """The files that a GLTF file names count as its own."""
+    named = [
+        b.get("uri", "") for b in json.loads(path.read_text(errors="replace")).get("buffers", ())
+    ]
+    files = [path.parent / uri for uri in named if uri and not uri.startswith("data:")]
+    _require_size(
+        path.stat().st_size + sum(f.stat().st_size for f in files if f.is_file()), most, who
+    )
+
+
+def _cloud(n: int, who: str) -> BodyError:
+    return BodyError(
+        f"{who}: it holds {n} points and no faces: a point cloud, which encloses nothing. Take the"
+        " hull of the points with Body.convex, or reconstruct a surface first."
+    )
+
+
+def _unreadable(who: str, error: Exception) -> BodyError:
+    first = str(error).strip().split("\n")[0][:150] or type(error).__name__
+    return BodyError(f"{who} cannot be read ({first}). {REMEDY}")

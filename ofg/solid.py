@@ -1,0 +1,274 @@
+"""What may be a solid: arrays and closed surfaces are checked, put in order or refused."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from . import exact, surface, winding
+
+BLOCK = 64  #: neighbouring vertices that are compared with a plane together
+ASKED = 64  #: faces of an inverted shell at which it is asked what the other shells are around it
+
+
+class BodyError(ValueError):
+    """A mesh or file that cannot be a body; the message names it, the fault and the remedy."""
+
+
+class BodyWarning(UserWarning):
+    """A notice that a mesh was changed to make a body of it: its faces were turned outward."""
+
+
+def points(vertices, who: str, least: int = 4) -> np.ndarray:
+    """(n, 3) finite doubles, or BodyError."""
+    try:
+        if np.iscomplexobj(vertices):
+            raise TypeError("complex numbers")
+        v = np.asarray(vertices, np.float64)
+    except (TypeError, ValueError) as error:
+        raise BodyError(
+            f"{who}: vertices are no array of numbers ({error}); give at least four points as an"
+            " (n, 3) array."
+        ) from error
+    if v.ndim != 2 or v.shape[1] != 3 or len(v) < least:
+        raise BodyError(
+            f"{who}: vertices have shape {v.shape}; give at least four points as an (n, 3) array."
+        )
+    bad = np.flatnonzero(~np.isfinite(v).all(axis=1))
+    if len(bad):
+        raise BodyError(
+            f"{who}: vertex {bad[0]} is {v[bad[0]]}, which is not finite ({len(bad)} such of"
+            f" {len(v)}). Remove or repair these vertices before making a body of them."
+        )
+    return v
+
+
+def triangles(faces, n: int, who: str) -> np.ndarray:
+    """(m, 3) int64 indices below n, or BodyError."""
+    try:
+        f = np.asarray(faces)
+    except ValueError:
+        f = np.empty(0, object)
+    if f.ndim != 2 or f.shape[1] != 3 or not np.issubdtype(f.dtype, np.integer):
+        raise BodyError(
+            f"{who}: faces have shape {f.shape} and type {f.dtype}; give triangles as an (m, 3)"
+            " array of vertex indices."
+        )
+    if not len(f):
+        raise BodyError(
+            f"{who}: there are {n} points and no faces, which enclose nothing. Give the faces, "
+            "or take the hull of the points with Body.convex."
+        )
+    if f.min() < 0 or f.max() >= n:
+        raise BodyError(
+            f"{who}: a face names vertex {f.max() if f.max() >= n else f.min()}, but the vertices"
+            f" are 0 to {n - 1}."
+        )
+    return f.astype(np.int64)
+
+
+def closed(v: np.ndarray, f: np.ndarray, who: str) -> tuple[np.ndarray, np.ndarray]:
+    """The closed outward surface of the same solid, or BodyError (README.md, "What a body may be").
+
+    v: (n, 3), f: (m, 3), checked. Vertices at exactly one place are merged, those without a face
+    dropped; faces that cancel are dropped; the faces without area that are left come last. Faces
+    that are all inward are turned, with a BodyWarning. All else stays in its order.
+    """
+    v, f = surface.merged(v, f)
+    require_balance(v, f, who)
+    v, f = surface.settled(v, f)
+    require_volume(f, who)
+    return v, outward(v, f, who)
+
+
+def require_volume(faces, who: str) -> None:
+    if not len(faces):
+        raise BodyError(
+            f"{who}: its faces lie in planes and cancel each other, so that they enclose nothing. "
+            "A body needs a surface with a volume inside; give a sheet a thickness."
+        )
+
+
+def require_balance(v: np.ndarray, f: np.ndarray, who: str) -> None:
+    """Each directed edge as often as its reverse, or BodyError with the remedy."""
+    e = surface.Edges(f)
+    lonely = e.unbalanced() > 0
+    if not lonely.any():
+        return
+    holes = lonely & (e.uses % 2 == 1)
+    if holes.any():
+        length = closing_weld(v, f)
+        remedy = (
+            f"It closes if vertices are merged that are up to {length:.0e} apart: weld={length:.0e}"
+            " of Body.from_file."
+            if length
+            else "Close it (trimesh.repair.fill_holes), or take its hull with Body.convex."
+        )
+        raise BodyError(
+            f"{who}: the mesh is open; {len(np.unique(e.key[holes]))} of {e.key.max() + 1} edges"
+            f" have no opposite partner. {remedy}"
+        )
+    raise BodyError(
+        f"{who}: neighbouring faces disagree in orientation; {len(np.unique(e.key[lonely]))} of"
+        f" {e.key.max() + 1} edges are run through twice in one direction. Orient the faces alike"
+        " (trimesh.repair.fix_normals)."
+    )
+
+
+def closing_weld(v: np.ndarray, f: np.ndarray) -> float | None:
+    """The least power of ten below 1e-3 of the size that welds a mesh shut; None if none does."""
+    size = float(np.linalg.norm(np.ptp(v, axis=0)))
+    if not size or len(f) > 300_000:  # it is a hint only
+        return None
+    for power in range(int(np.floor(np.log10(size))) - 9, int(np.floor(np.log10(size))) - 3):
+        length = 10.0**power
+        try:
+            w, g = surface.merged(*welded(v, f, length, ""))
+        except BodyError:
+            return None
+        if 2 * len(g) > len(f) and not len(surface.open_edges(g)):
+            return length
+    return None
+
+
+def welded(v: np.ndarray, f: np.ndarray, length: float, who: str) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices closer than `length` made one, at the place of the first. BodyError where chains of
+    such vertices would move one by more than twice the length."""
+    try:
+        fine = np.isfinite(length) and length >= 0
+    except TypeError:
+        fine = False
+    if not fine:
+        raise BodyError(
+            f"{who}: weld = {length!r}; give a length of 0 or more in the mesh's own unit."
+        )
+    if length == 0:
+        return v, f
+    size = float(np.linalg.norm(np.ptp(v, axis=0)))
+    if length > 0.01 * size:
+        raise BodyError(
+            f"{who}: weld = {length:g} is more than a hundredth of the mesh's size, {size:.3g}. "
+            "Give a length well below the mesh's own edges."
+        )
+    pairs = cKDTree(v).query_pairs(length, output_type="ndarray")
+    place = np.arange(len(pairs))
+    part = surface.groups(pairs.T.ravel(), np.tile(place, 2), len(v)).reshape(-1)
+    first = np.unique(part, return_index=True)[1][part]
+    far = np.linalg.norm(v - v[first], axis=1).max()
+    if far > 2 * length:
+        raise BodyError(
+            f"{who}: weld = {length:g} joins vertices that are {far:.3g} apart, by others between"
+            " them. Give a length well below the mesh's own edges."
+        )
+    return v, first[f]
+
+
+def outward(v: np.ndarray, f: np.ndarray, who: str) -> np.ndarray:
+    """The faces with a winding number of 0 or more everywhere, or BodyError.
+
+    A shell with negative volume is a cavity if the solid is around it: its winding numbers, which
+    are exact, are then not negative. If all are the other way round, the faces are turned.
+    """
+    shell = surface.shells(f)
+    sign = np.array([exact.volume_sign(v, f[shell == i]) for i in range(shell.max() + 1)])
+    if (sign == 0).any() and len(sign) == 1:
+        raise BodyError(
+            f"{who}: the mesh has as much volume inside-out as outward, so its signed volume is 0. "
+            "Orient its parts alike (trimesh.repair.fix_normals)."
+        )
+    if (sign > 0).all():
+        return f
+    wrong = _wrong(v, f, shell, np.flatnonzero(sign <= 0), 1)
+    if wrong is None:
+        return f
+    if (sign < 0).all() or _wrong(v, f, shell, np.flatnonzero(sign >= 0), -1) is None:
+        notice_turned(who)
+        return f[:, ::-1]
+    raise BodyError(
+        f"{who}: shell {wrong + 1} of {len(sign)} is inside-out and not a cavity of another; it"
+        f" holds the vertex {v[f[shell == wrong][0, 0]]}. Orient the shells outward"
+        " (trimesh.repair.fix_normals with multibody=True)."
+    )
+
+
+def notice_turned(who: str) -> None:
+    warnings.warn(
+        f"{who}: the mesh is inside-out; its faces are turned outward.", BodyWarning, stacklevel=6
+    )
+
+
+def _wrong(v, f, shell, asked, way: int) -> int | None:
+    """The first of the shells asked at which the winding number, times `way`, is below 0."""
+    broad = ~exact.flat(v, f)
+    for i in asked:
+        faces = np.flatnonzero((shell == i) & broad)
+        for face in faces[:: -(-len(faces) // ASKED)]:
+            try:
+                front, back, _ = winding.beside(v, f, int(face))
+            except winding.Unclear:
+                continue
+            if min(way * front, way * back) < 0:
+                return int(i)
+    return None
+
+
+def is_convex(v: np.ndarray, f: np.ndarray) -> bool:
+    """Does a closed outward surface bound its own hull? Proved, not to a tolerance.
+
+    One closed part; no edge of more than two faces; and every vertex exactly on or behind the plane
+    of every face. Such a surface lies on the hull's and covers it a whole number of times; that the
+    number is 1 is left to the caller, by the volume.
+    """
+    e = surface.Edges(f)
+    if (e.uses != 2).any() or surface.patches(f, e).max() > 0:
+        return False
+    order = np.argsort(e.key, kind="stable").reshape(-1, 2)
+    broad = ~exact.flat(v, f)
+    one, other = e.face[order].T
+    both = broad[one] & broad[other]
+    if not _behind(v, f[one[both]], f[other[both]]):  # cheap, and most meshes fail here
+        return False
+    return _all_behind(v, f, surface.coplanar(v, f, e).reshape(-1), broad)
+
+
+def _all_behind(v, f, plane, broad) -> bool:
+    """Is every vertex on or behind every plane? plane: (m,) a number for the plane of each face.
+
+    Vertices come in blocks of neighbours: one whose ball is behind a plane needs no further look.
+    """
+    _, first = np.unique(plane[broad], return_index=True)
+    of = np.flatnonzero(broad)[first]
+    own = np.unique(plane[broad].repeat(3) * len(v) + f[broad].ravel())
+    order = cKDTree(v, leafsize=BLOCK).indices
+    blocks = [order[i : i + BLOCK] for i in range(0, len(v), BLOCK)]
+    middle = np.array([v[b].mean(axis=0) for b in blocks])
+    radius = np.array([np.linalg.norm(v[b] - c, axis=1).max() for b, c in zip(blocks, middle)])
+    a, b, c = (v[f[of, k]] for k in range(3))
+    normal = exact.cross(b - a, c - a)
+    size = np.abs(v).max()
+    long = np.abs(normal).sum(axis=1) + 8 * exact.UNIT * size * (np.abs(b - a) + np.abs(c - a)).sum(
+        axis=1
+    )
+    offset = (a * normal).sum(axis=1)
+    blur = 1e-13 * size * long  # far above rounding: what is within is looked at exactly
+    for block, m, r in zip(blocks, middle, radius):
+        near = np.flatnonzero(normal @ m - offset + r * long + blur >= 0)
+        for some in np.array_split(near, -(-len(near) // 4096)) if len(near) else ():
+            height = v[block] @ normal[some].T - offset[some]
+            vertex, at = np.nonzero(height >= -4 * blur[some])
+            vertex, at = block[vertex], some[at]
+            key = plane[of[at]] * len(v) + vertex
+            foreign = own[np.searchsorted(own, key) % len(own)] != key
+            at, vertex = at[foreign], vertex[foreign]
+            if (exact.sides(a[at], b[at], c[at], v[vertex]) > 0).any():
+                return False
+    return True
+
+
+def _behind(v, f, g) -> bool:
+    return all(
+        (exact.sides(*(v[f[:, k]] for k in range(3)), v[g[:, corner]]) <= 0).all()
+        for corner in range(3)
+    )

@@ -1,0 +1,275 @@
+"""The volume of what a closed surface encloses, also where the surface cuts or overlaps itself."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import exact, surface, winding
+
+MOST_CUTS = 5000  #: pairs of faces that cut each other; beyond it no volume is worked out
+THIN = 1e-12  #: cuts shorter than this share of the size are passed over
+NEAR = 1e-14  #: of the largest coordinate: so near to a plane it may be off by rounding alone
+
+
+class TooManyCuts(ValueError):
+    pass
+
+
+def solid_volume(v: np.ndarray, f: np.ndarray) -> float:
+    """The volume of the points whose winding number is not 0. Faces: closed, `surface.settled`.
+
+    What lies on the sides of a face is decided exactly. The sum, the cuts and the pieces that
+    faces are cut into are in doubles: some 1e-12 of size^3 may be off where a surface cuts
+    itself. TooManyCuts beyond MOST_CUTS pairs of faces.
+    """
+    f = f[~exact.flat(v, f)]  # they have no share in a volume
+    centre, size = (v.min(axis=0) + v.max(axis=0)) / 2, float(np.ptp(v, axis=0).max())
+    cutters = _cuts(v, f, size)
+    weight, busy = _weights(v, f, cutters)
+    total = 0.0
+    for corners, w in [(v[f[~busy]], weight[~busy])] + [
+        _split(v, f, i, cutters[i], size) for i in sorted(cutters)
+    ]:
+        a, b, c = ((corners[:, k] - centre) / size for k in range(3))
+        total += float(((a * exact.cross(b, c)).sum(axis=1) * w).sum() / 6)
+    return total * size**3
+
+
+def _weights(v, f, cutters):
+    """For each face whether the solid is behind it (1), in front (-1) or on both sides or none (0);
+    and which faces are cut, whose pieces differ."""
+    cut = np.zeros(len(f), bool)
+    cut[list(cutters)] = True
+    busy = cut.copy()
+    busy[[i for cuts in cutters.values() for i, _ in cuts]] = True  # their neighbours may differ
+    e = surface.Edges(f)
+    plain = (e.uses == 2) & ~busy[e.face]
+    patch = surface.groups(e.face[plain], e.key[plain], len(f)).reshape(-1)
+    weight = np.ones(len(f), int)
+    if not cutters and patch.max() == 0:
+        return weight, cut
+    _, first = np.unique(patch, return_index=True)
+    for i in first:
+        if not cut[i]:
+            front, back, alone = winding.beside(v, f, i)
+            weight[patch == patch[i]] = ((back != 0) - (front != 0)) * alone
+    return weight, cut
+
+
+def _cuts(v, f, size) -> dict[int, list]:
+    """For each face that others cut: (other face, whether it lies in the same plane)."""
+    found: dict[int, list] = {}
+    count, plane = 0, surface.coplanar(v, f, surface.Edges(f)).reshape(-1)
+    for i, j in _near(v, f):
+        for one, other, level in _cutting(v, f, i, j, plane, THIN * size):
+            found.setdefault(one, []).append((other, level))
+            count += 1
+            if count > 2 * MOST_CUTS:
+                raise TooManyCuts(f"more than {MOST_CUTS} pairs of its faces cut each other")
+    return found
+
+
+def _cutting(v, f, i, j, plane, least):
+    """(cut face, the other, in one plane?) of those of the pairs i, j (n,) that share a line."""
+    level = plane[i] == plane[j]
+    of_i, of_j = np.zeros((2, len(i), 3), np.int8)
+    of_j[~level] = _signs(v, f, i[~level], j[~level])
+    near = ~((of_j > 0).all(1) | (of_j < 0).all(1))
+    of_i[near & ~level] = _signs(v, f, j[near & ~level], i[near & ~level])
+    near &= ~((of_i > 0).all(1) | (of_i < 0).all(1))
+    level |= near & ((of_j == 0).all(1) | (of_i == 0).all(1))
+    cut_i, cut_j = (
+        _passes(x) & _reaches(y) & near & ~level for x, y in ((of_i, of_j), (of_j, of_i))
+    )
+    some = np.flatnonzero(cut_i | cut_j)
+    long = _common(v[f[i[some]]], v[f[j[some]]], of_i[some], of_j[some]) > least
+    cut_i[some] &= long
+    cut_j[some] &= long
+    flat = np.flatnonzero(level)
+    both = flat[_overlap(v[f[i[flat]]], v[f[j[flat]]], least)]
+    for k in np.flatnonzero(cut_i):
+        yield int(i[k]), int(j[k]), False
+    for k in np.flatnonzero(cut_j):
+        yield int(j[k]), int(i[k]), False
+    for k in both:
+        yield int(i[k]), int(j[k]), True
+        yield int(j[k]), int(i[k]), True
+
+
+def _passes(signs):
+    """Strictly on both sides of a plane."""
+    return (signs > 0).any(axis=1) & (signs < 0).any(axis=1)
+
+
+def _reaches(signs):
+    """Has more than one point in a plane."""
+    return _passes(signs) | ((signs == 0).sum(axis=1) >= 2)
+
+
+def _signs(v, f, i, j):
+    """(n, 3): the sides of face i that the corners of face j are on; 0 for what is in its plane, or
+    so near that a turn of both may have put it there by rounding."""
+    a, b, c = (v[f[i, k]] for k in range(3))
+    n, out = _normals(v[f[i]]), np.zeros((len(i), 3), np.int8)
+    for k in range(3):
+        p = v[f[j, k]]
+        away = np.abs(((p - a) * n).sum(axis=1)) > NEAR * np.abs(v).max()
+        out[away, k] = exact.sides(a[away], b[away], c[away], p[away])
+    return out
+
+
+def _near(v, f):
+    """Pairs (i, j) of faces whose boxes meet, in batches: swept along the longest side."""
+    low, high = v[f].min(axis=1), v[f].max(axis=1)
+    axis = int(np.argmax(np.ptp(v, axis=0)))
+    order = np.argsort(low[:, axis], kind="stable")
+    end = np.searchsorted(low[order, axis], high[order, axis], side="right")
+    first, second, count = [], [], 0
+    for place, i in enumerate(order):
+        j = order[place + 1 : end[place]]
+        j = j[((low[j] <= high[i]) & (high[j] >= low[i])).all(axis=1)]
+        first.append(np.full(len(j), i)), second.append(j)
+        count += len(j)
+        if count > 100_000:
+            yield np.concatenate(first), np.concatenate(second)
+            first, second, count = [], [], 0
+    if count:
+        yield np.concatenate(first), np.concatenate(second)
+
+
+def _plane(t):
+    n = np.cross(t[1] - t[0], t[2] - t[0])
+    return t[0], n / np.linalg.norm(n)
+
+
+def _section(points, at, n, along):
+    """The interval along a direction of a convex polygon in the plane through `at`, or None."""
+    height = (points - at) @ n
+    ends = []
+    for p, q, hp, hq in zip(points, np.roll(points, -1, axis=0), height, np.roll(height, -1)):
+        if hp == 0 or hp * hq < 0:
+            ends.append(float((p + (q - p) * (hp / (hp - hq) if hp else 0)) @ along))
+    return (min(ends), max(ends)) if ends else None
+
+
+def _common(s, t, of_s, of_t) -> np.ndarray:
+    """(n,) the length of the segment that triangles s, t (n, 3, 3) in different planes share, 0 or
+    less if none; of_s, of_t: (n, 3) the sides of the other's plane that their corners are on."""
+    n, m = _normals(s), _normals(t)
+    along = np.cross(n, m)
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    (low_s, high_s), (low_t, high_t) = _reach(s, of_s, t[:, 0], m, along), _reach(
+        t, of_t, s[:, 0], n, along
+    )
+    return np.minimum(high_s, high_t) - np.maximum(low_s, low_t)
+
+
+def _normals(t):
+    n = exact.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
+    return n / np.linalg.norm(n, axis=1)[:, None]
+
+
+def _reach(t, of, at, n, along):
+    """The intervals along directions of triangles in planes; corners are on the sides `of`."""
+    height = ((t - at[:, None]) * n[:, None]).sum(axis=2)
+    place = (t * along[:, None]).sum(axis=2)
+    low, high = np.full(len(t), np.inf), np.full(len(t), -np.inf)
+    for k in range(3):
+        q = (k + 1) % 3
+        share = height[:, k] / np.where(of[:, k] * of[:, q] < 0, height[:, k] - height[:, q], 1)
+        for found, x in (
+            (of[:, k] == 0, place[:, k]),
+            (of[:, k] * of[:, q] < 0, place[:, k] + share * (place[:, q] - place[:, k])),
+        ):
+            low, high = np.where(found, np.minimum(low, x), low), np.where(
+                found, np.maximum(high, x), high
+            )
+    return low, high
+
+
+def _overlap(s, t, least) -> np.ndarray:
+    """(n,) bool: do triangles s, t (n, 3, 3) in one plane share more than a line?"""
+    n, out = _normals(s), np.ones(len(s), bool)
+    for one, other in ((s, t), (t, s)):
+        for k in range(3):
+            axis = exact.cross(one[:, (k + 1) % 3] - one[:, k], n)
+            axis = (axis / np.linalg.norm(axis, axis=1)[:, None])[:, None]
+            own, its = ((one - one[:, k : k + 1]) * axis).sum(axis=2), (
+                (other - one[:, k : k + 1]) * axis
+            ).sum(axis=2)
+            out &= (its.min(axis=1) < own.max(axis=1) - least) & (
+                its.max(axis=1) > own.min(axis=1) + least
+            )
+    return out
+
+
+def _split(v, f, face, cutters, size):
+    """((n, 3, 3) triangles, (n,) weights) of a face in the pieces that the others cut it into."""
+    corners = v[f[face]]
+    at, n = _plane(corners)
+    pieces, level = [corners], [i for i, same in cutters if same]
+    for i, same in cutters:
+        other = v[f[i]]
+        for p, m in _walls(other, n) if same else [_plane(other)]:
+            along = np.cross(n, m)
+            reach = np.sort(other @ along)[[0, 2]] if same else _section(other, at, n, along)
+            if reach is not None:
+                pieces = [
+                    x for piece in pieces for x in _halves(piece, p, m, along, reach, THIN * size)
+                ]
+    triangles, weights = [], []
+    for piece in pieces:
+        weight = _weight(v, f, face, level, piece, n)
+        triangles += [(piece[0], b, c) for b, c in zip(piece[1:], piece[2:])]
+        weights += [weight] * (len(piece) - 2)
+    return np.array(triangles), np.array(weights)
+
+
+def _walls(t, n):
+    """Planes through the edges of a triangle, upright on it."""
+    for p, q in zip(t, np.roll(t, -1, axis=0)):
+        m = np.cross(q - p, n)
+        yield p, m / np.linalg.norm(m)
+
+
+def _halves(piece, p, m, along, reach, least):
+    """A convex polygon cut by a plane, if the cut is within reach and not thin."""
+    height = (piece - p) @ m
+    if height.max() <= least or height.min() >= -least:
+        return [piece]
+    chord = _section(piece, p, m, along)
+    if chord is None or chord[1] <= reach[0] or chord[0] >= reach[1]:
+        return [piece]
+    sides: tuple[list, list] = ([], [])
+    for a, b, ha, hb in zip(piece, np.roll(piece, -1, axis=0), height, np.roll(height, -1)):
+        for side, sign in zip(sides, (1, -1)):
+            if sign * ha >= 0:
+                side.append(a)
+            if ha * hb < 0:
+                side.append(a + (b - a) * (ha / (ha - hb)))
+    return [np.array(side) for side in sides if len(side) > 2]
+
+
+def _weight(v, f, face, level, piece, n) -> int:
+    for shares in (
+        np.ones(len(piece)),
+        1 + np.arange(len(piece)),
+        1 + np.arange(len(piece))[::-1] ** 2,
+    ):
+        p = (piece * (shares / shares.sum())[:, None]).sum(axis=0)
+        on = [(i, 1 if _plane(v[f[i]])[1] @ n > 0 else -1) for i in level if _holds(v[f[i]], p)]
+        if any(i < face for i, _ in on):
+            return 0  # the first of faces on one another counts for all
+        normal = winding._normal([exact.rational(c) for c in v[f[face]]])
+        try:
+            front, grazed = winding._ahead(v, f, exact.rational(p), normal, [face, *level])
+        except winding.Unclear:
+            continue
+        back = front + 1 + sum(way for _, way in on)
+        return (back != 0) - (front != 0)
+    return 0  # on other edges wherever it is looked at: too thin to tell, and to matter
+
+
+def _holds(t, p) -> bool:
+    n = _plane(t)[1]
+    return all(np.cross(t[(k + 1) % 3] - t[k], p - t[k]) @ n > 0 for k in range(3))

@@ -1,0 +1,150 @@
+"""Winding numbers of closed surfaces: about points, and on the two sides of a face."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+
+from . import exact, surface
+
+# Directions of rays: small whole numbers that few edges are parallel to.
+RAYS = ((3, 5, 7), (-7, 4, 3), (5, -8, 6), (-2, -7, 9), (11, 3, -8), (1, 12, -5), (-9, -4, -13))
+WEIGHTS = ((1, 1, 1), (2, 1, 1), (1, 3, 2), (5, 2, 3), (2, 3, 7))  #: points of a face
+MOST_CUTS = 4000  #: faces cut by others that a volume is worked out for
+
+
+class Unclear(ValueError):
+    """The point asked about lies on the surface, or no ray tells."""
+
+
+def beside(v: np.ndarray, f: np.ndarray, face: int) -> tuple[int, int, bool]:
+    """(front, back, first): winding numbers just in front of a face with an area and just behind
+    it, at a point inside it; first: no face before it lies there too. Exact.
+
+    Faces that lie on it and run the same way count with it; where the face is cut by others the
+    numbers are those at one of its points.
+    """
+    for weights in WEIGHTS:
+        corners = [exact.rational(v[i]) for i in f[face]]
+        all_ = sum(weights)
+        p = [sum(w * c[i] for w, c in zip(weights, corners)) / all_ for i in range(3)]
+        try:
+            ahead, on = _ahead(v, f, p, _normal(corners), np.array([face]))
+        except Unclear:
+            continue
+        return ahead, ahead + 1 + sum(way for _, way in on), all(i > face for i, _ in on)
+    raise Unclear(f"face {face} has other edges on it wherever it is looked at")
+
+
+def at(v: np.ndarray, f: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """(n,) winding numbers about (n, 3) points; 0 for a point on the surface."""
+    out = np.zeros(len(points), int)
+    low, high = v.min(axis=0), v.max(axis=0)
+    for i in np.flatnonzero(((points > low) & (points < high)).all(axis=1)):
+        try:
+            ahead, on = _ahead(v, f, exact.rational(points[i]))
+        except Unclear:
+            continue
+        out[i] = 0 if on else ahead
+    return out
+
+
+def _ahead(v, f, p, normal=None, skip=()):
+    """(crossings, on): signed crossings of a ray from p with all faces but `skip`; the faces that p
+    lies inside, with the way each runs compared with `normal`. p: three Fractions. The ray leaves
+    to the side that `normal` points to. Unclear where p is on an edge, or no ray tells."""
+    near = np.array([float(c) for c in p])
+    with np.errstate(all="ignore"):
+        w = v[f] - near
+        reach = np.abs(w).max(axis=(1, 2))
+        error = 4 * exact.UNIT * (np.abs(near).max() + reach)
+        bound = 64 * reach * error + 64 * exact.UNIT * reach * reach
+        arms = np.stack([exact.cross(w[:, i], w[:, (i + 1) % 3]) for i in range(3)], axis=1)
+        height = (w[:, 0] * arms[:, 1]).sum(axis=1)
+    rest = np.ones(len(f), bool)
+    rest[list(skip)] = False
+    for ray in RAYS:
+        facing = 1 if normal is None else sum(a * b for a, b in zip(ray, normal))
+        if facing == 0:
+            continue
+        d = np.array(ray, float) * (1 if facing > 0 else -1)
+        with np.errstate(all="ignore"):
+            side = arms @ d
+            slack = (bound * np.abs(d).sum())[:, None]
+            up, down = (side > slack).all(axis=1), (side < -slack).all(axis=1)
+            missed = (side > slack).any(axis=1) & (side < -slack).any(axis=1)
+            told = (up | down) & (np.abs(height) > 4 * reach * bound) & (bound > exact.SURE)
+        hits = told & rest & (up == (height > 0))
+        total, on = int(up[hits].sum()) - int(down[hits].sum()), []
+        try:
+            for i in np.flatnonzero(rest & ~told & ~(missed & (bound > exact.SURE))):
+                crossed, way = _crossed(v[f[i]], p, d, normal)
+                total += crossed
+                if way:
+                    on.append((int(i), way))
+        except _Grazed:
+            continue
+        return total, on
+    raise Unclear("no ray tells")
+
+
+class _Grazed(Exception):
+    """The ray goes through an edge, a vertex or the plane of a face."""
+
+
+def _crossed(corners, p, d, normal):
+    """(crossing, way) of one face, by rationals."""
+    w = [[c - q for c, q in zip(exact.rational(x), p)] for x in corners]
+    d = [Fraction(float(c)) for c in d]
+    area = _cross([b - a for a, b in zip(w[0], w[1])], [b - a for a, b in zip(w[0], w[2])])
+    if not any(area):
+        return 0, 0
+    height = _dot(w[0], _cross(w[1], w[2]))
+    sides = [_dot(d, _cross(w[i], w[(i + 1) % 3])) for i in range(3)]
+    if any(s > 0 for s in sides) and any(s < 0 for s in sides):
+        return 0, 0
+    if not any(sides) or (any(s == 0 for s in sides) and height != 0):
+        raise _Grazed
+    if height == 0:
+        if any(s == 0 for s in sides):
+            raise Unclear("the point is on an edge")
+        return 0, 1 if normal is None or _dot(area, normal) > 0 else -1
+    up = sides[0] > 0
+    return ((1 if up else -1) if up == (height > 0) else 0), 0
+
+
+def _normal(corners):
+    a, b, c = corners
+    return _cross([q - p for p, q in zip(a, b)], [q - p for p, q in zip(a, c)])
+
+
+def _cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def _dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def signed_volume(v: np.ndarray, f: np.ndarray) -> float:
+    """The sum over the faces: each region counts as often as its winding number says."""
+    size = np.abs(v).max()
+    v = (v - v.mean(axis=0)) / size  # so that nothing is below the smallest double on the way
+    a, b, c = (v[f[:, i]] for i in range(3))
+    return float((a * exact.cross(b, c)).sum() / 6) * float(size) ** 3
+
+
+def bounding(v: np.ndarray, f: np.ndarray) -> np.ndarray:
+    """(m,) of -1, 0, 1: is the solid (winding number not 0) behind each face alone, on both or on
+    neither side, or in front alone? Of faces on one another the first counts for all. For surfaces
+    that do not cut themselves; faces without area have 0."""
+    out = np.zeros(len(f), int)
+    broad = np.flatnonzero(~exact.flat(v, f))
+    patch = surface.patches(f)
+    _, first = np.unique(patch[broad], return_index=True)
+    for i in broad[first]:
+        front, back, alone = beside(v, f, i)
+        out[patch == patch[i]] = ((back != 0) - (front != 0)) if alone else 0
+    out[exact.flat(v, f)] = 0
+    return out
