@@ -28,6 +28,7 @@ from .sampling import Discrete, Substeps
 from .units import Normalised
 
 #: Bytes of FCL 0.7's InterpMotion, the object of CCDM_LINEAR: of all sizes from 24 to 2024, only stale blocks of this one change answers.
+#: valgrind names no other memory that conservative advancement reads unset, neither on the heap nor on the stack.
 MOTION_BYTES = 504
 
 
@@ -246,6 +247,7 @@ class _Advancement(_Continuous):
     """Conservative advancement at its best: CCDM_TRANS for translations, CCDM_LINEAR for motions, 1000 iterations.
 
     Of 497 certified sweeps (nine families) 26 missed and 11 false hits on hulls; neither units nor toi_err change that.
+    Its times hang on the last bit of a pose: a quaternion that ends 1e-16 elsewhere moved one by 6e-7 of the step.
     """
 
     configuration = "best effort"

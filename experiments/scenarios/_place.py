@@ -207,8 +207,9 @@ def in_world(rng, draft: Draft, offset: float = 1.0) -> Draft:
     def turned(motion: Motion) -> Motion:
         return replace(motion, displacement=r @ motion.displacement, axis=r @ motion.axis)
 
+    motion_b = draft.motion_b if draft.motion_b.rests else turned(draft.motion_b)
     return replace(draft, pose_a=moved(draft.pose_a), pose_b=moved(draft.pose_b), motion=turned(draft.motion),
-                   motion_b=turned(draft.motion_b), tags={**(draft.tags or {}), "aligned": aligned})
+                   motion_b=motion_b, tags={**(draft.tags or {}), "aligned": aligned})
 
 
 def flight_through(rng, level: float) -> Draft:
