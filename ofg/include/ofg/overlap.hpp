@@ -107,8 +107,10 @@ void oppose(const Mesh<T>& a, const Mesh<T>& b, const Near<T>& near, const Optio
   ++counts.spheres;
   if (spheres_apart(Vec3<double>(centre_a - w.b.centre), double(w.a.radius) + double(w.b.radius) + near.slack)) return;  // 6
   if constexpr (Last < 8) return;
-  move(near.to_b, w.a);
-  answer.hit = faces_meet(w.a, w.b, scale_of(a, b, near.to_b.p), centre_a - w.b.centre, near.screened, w, answer);  // 8
+  const T scale = scale_of(a, b, near.to_b.p), unit = unit_for(scale);
+  move(near.to_b.in_units(unit), w.a), measure_in(unit, w.b);
+  answer.hit = faces_meet(w.a, w.b, scale * unit, (centre_a - w.b.centre) * unit, near.screened, w,
+                          answer);  // 8
   if (answer.hit) answer.found = Found::start;
 }
 
@@ -119,8 +121,11 @@ bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T
   const CloudView<T> hull_a = a.cloud.view(), hull_b = b.cloud.view();
   static constexpr T zeros[lanes<T>] = {};
   const CloudView<T> origin{zeros, zeros, zeros, lanes<T>};
-  return separated(
-      axis, gap, [&](const Vec3<T>& v) { return to_b(support(hull_a, origin, back * v)) + support(origin, hull_b, v); }, 24);
+  const T unit = unit_for(scale_of(a, b, to_b.p));
+  const auto least = [&](const Vec3<T>& v) {
+    return (to_b(support(hull_a, origin, back * v)) + support(origin, hull_b, v)) * unit;
+  };
+  return separated(axis, gap * unit, least, 24);
 }
 
 }  // namespace detail

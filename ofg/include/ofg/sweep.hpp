@@ -43,8 +43,10 @@ struct Contact {
   int face_a = -1, face_b = -1;
 };
 
-// Virtual edges: the chords of the selected vertices of `m`, from `start` to `end`, against the other's selected faces, all in
-// the frame of the other. Stops at the first hit, or finds the earliest.
+// Virtual edges: the chords of the selected vertices of `m`, from `start` to `end`, against the
+// other's selected faces, all in the frame of the other. Stops at the first hit, or finds the
+// earliest. The other's faces have been gathered in the unit of length of `scale`, and the vertices
+// come out of the transforms in it.
 template <class T>
 bool virtual_edges_meet(const Mesh<T>& m, const Selection<T>& s, const Transform<T>& start, const Transform<T>& end,
                         const Selection<T>& other, T scale, bool swapped, bool earliest, Workspace<T>& w, Contact& contact,
@@ -74,13 +76,14 @@ bool virtual_edges_meet(const Mesh<T>& m, const Selection<T>& s, const Transform
   return hit;
 }
 
-// Boxes of B's selected edges, for the rejection of most pairs of edges.
+// Boxes of B's selected edges in a unit of length, for the rejection of most pairs of edges.
 template <class T>
-BoxView<T> edge_boxes(const Mesh<T>& m, const Selection<T>& s, Workspace<T>& w) {
+BoxView<T> edge_boxes(const Mesh<T>& m, const Selection<T>& s, T unit, Workspace<T>& w) {
   const std::size_t n = s.edges.size(), padded = (n + lanes<T> - 1) / lanes<T> * lanes<T>;
   for (std::size_t i = 0; i < padded; ++i) {
     const auto& e = m.edges[std::size_t(s.edges[i < n ? i : 0])];
-    const Vec3<T> p = m.vertices[std::size_t(e[0])], q = m.vertices[std::size_t(e[1])];
+    const Vec3<T> p = m.vertices[std::size_t(e[0])] * unit,
+                  q = m.vertices[std::size_t(e[1])] * unit;
     w.box[0][i] = std::fmin(p.x, q.x), w.box[1][i] = std::fmin(p.y, q.y), w.box[2][i] = std::fmin(p.z, q.z);
     w.box[3][i] = std::fmax(p.x, q.x), w.box[4][i] = std::fmax(p.y, q.y), w.box[5][i] = std::fmax(p.z, q.z);
   }
@@ -88,10 +91,11 @@ BoxView<T> edge_boxes(const Mesh<T>& m, const Selection<T>& s, Workspace<T>& w) 
 }
 
 template <class T>
-bool moving_edges_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& start, const Transform<T>& end, T scale,
-                       bool earliest, Workspace<T>& w, Contact& contact, Counts& counts) {
+bool moving_edges_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& start,
+                       const Transform<T>& end, T scale, T unit, bool earliest, Workspace<T>& w,
+                       Contact& contact, Counts& counts) {
   bool hit = false;
-  const BoxView<T> boxes = edge_boxes(b, w.b, w);
+  const BoxView<T> boxes = edge_boxes(b, w.b, unit, w);
   const int padded = int((w.b.edges.size() + lanes<T> - 1) / lanes<T> * lanes<T>);
   const T slack = rounding<T> * scale;
   for (std::size_t i = 0; i < w.a.edges.size(); ++i) {
@@ -106,7 +110,9 @@ bool moving_edges_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& s
       ++counts.edge_pairs;
       if (w.flags[j]) continue;
       const auto& f = b.edges[std::size_t(w.b.edges[j])];
-      const T share = edges_cross(p, q, r - p, s - q, b.vertices[std::size_t(f[0])], b.vertices[std::size_t(f[1])], scale);
+      const Vec3<T> from = b.vertices[std::size_t(f[0])] * unit,
+                    to = b.vertices[std::size_t(f[1])] * unit;
+      const T share = edges_cross(p, q, r - p, s - q, from, to, scale);
       if (share < 0 || !(share < contact.share)) continue;
       contact = {Found::edge_edge, double(share), w.a.edges[i], w.b.edges[j], w.a.edge_face[i], w.b.edge_face[j]};
       hit = true;
@@ -170,33 +176,43 @@ double velocity_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, con
 template <class T>
 bool features_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& start, const Transform<double>& end,
                    const Options& o, T scale, Workspace<T>& w, Contact& contact, Counts& counts) {
-  const Transform<T> s(start), e(end);
-  bool hit = virtual_edges_meet(a, w.a, s, e, w.b, scale, false, o.earliest, w, contact, counts);
+  const T unit = unit_for(scale), size = scale * unit;
+  const Transform<T> s(start), e(end), su = s.in_units(unit), eu = e.in_units(unit);
+  bool hit = virtual_edges_meet(a, w.a, su, eu, w.b, size, false, o.earliest, w, contact, counts);
   if (hit && !o.earliest) return true;
   if (o.both_vertices) {
-    gather(a, w.a);
-    hit |= virtual_edges_meet(b, w.b, s.inverse(), e.inverse(), w.a, scale, true, o.earliest, w, contact, counts);
+    gather(a, w.a), measure_in(unit, w.a);
+    const Transform<T> back = s.inverse().in_units(unit), back_end = e.inverse().in_units(unit);
+    hit |=
+        virtual_edges_meet(b, w.b, back, back_end, w.a, size, true, o.earliest, w, contact, counts);
     if (hit && !o.earliest) return true;
   }
-  if (o.edge_edge) hit |= moving_edges_meet(a, b, s, e, scale, o.earliest, w, contact, counts);
+  if (o.edge_edge)
+    hit |= moving_edges_meet(a, b, su, eu, size, unit, o.earliest, w, contact, counts);
   return hit;
 }
 
 template <class T>
 bool surfaces_meet(const Mesh<T>& a, const Transform<double>& pose, Workspace<T>& w, T scale, Answer& answer) {
   const Transform<T> to_b(pose);
+  const T unit = unit_for(scale);
   gather(a, w.a);
-  move(to_b, w.a);
-  return faces_meet(w.a, w.b, scale, to_b(w.a.centre) - w.b.centre, Screened::unknown, w, answer);
+  move(to_b.in_units(unit), w.a);
+  return faces_meet(w.a, w.b, scale * unit, (to_b(w.a.centre) - w.b.centre) * unit,
+                    Screened::unknown, w, answer);
 }
 
 // One plane between B's selection and A's at both ends keeps all chords away: none of the tests of the window can hit.
 template <class T>
-bool chords_apart(const Mesh<T>& a, const Window<T>& window, T gap, Workspace<T>& w) {
-  for (int i = 0; i < 2; ++i) gather(a, w.a, i), move(Transform<T>(i ? window.end : window.start), w.a, i);
+bool chords_apart(const Mesh<T>& a, const Window<T>& window, T gap, T unit, Workspace<T>& w) {
+  for (int i = 0; i < 2; ++i) {
+    gather(a, w.a, i);
+    move(Transform<T>(i ? window.end : window.start).in_units(unit), w.a, i);
+  }
   Vec3<T> axis = w.a.triangle(0).a - w.b.triangle(0).a;
   const CloudView<T> cloud_a = w.a.cloud(2), cloud_b = w.b.cloud();
-  return separated(axis, gap, [&](const Vec3<T>& v) { return support(cloud_a, cloud_b, v); });
+  return separated(axis, gap * unit,
+                   [&](const Vec3<T>& v) { return support(cloud_a, cloud_b, v); });
 }
 
 // Halves the window, testing the first half each time, with all tests of the sweep.
@@ -261,15 +277,16 @@ void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Wi
 template <class T>
 bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Window<T>& window, T gap, Vec3<T>& axis) {
   const Transform<T> start(window.start), end(window.end);
+  const T unit = unit_for(std::fmax(scale_of(a, b, start.p), scale_of(a, b, end.p)));
   const Mat3<T> back = start.r.transposed(), back_end = end.r.transposed();
   const CloudView<T> hull_a = a.cloud.view(), hull_b = b.cloud.view();
   static constexpr T zeros[lanes<T>] = {};
   const CloudView<T> origin{zeros, zeros, zeros, lanes<T>};
   const auto least = [&](const Vec3<T>& v) {
     const Vec3<T> p = start(support(hull_a, origin, back * v)), q = end(support(hull_a, origin, back_end * v));
-    return (dot(v, p) < dot(v, q) ? p : q) + support(origin, hull_b, v);
+    return ((dot(v, p) < dot(v, q) ? p : q) + support(origin, hull_b, v)) * unit;
   };
-  return separated(axis, gap, least, 16);
+  return separated(axis, gap * unit, least, 16);
 }
 
 // The virtual edges and the end of one window, on selections of its own; the start too where nothing was tested before it.
@@ -278,7 +295,9 @@ bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const 
                   Workspace<T>& w, Answer& answer) {
   Counts& counts = answer.counts;
   const T scale = scale_of(a, b, track, window);
+  const T unit = unit_for(scale);
   select_for(a, b, track, window, o, w, counts);
+  measure_in(unit, w.b);
   list_vertices(a, w, w.a);
   if (o.both_vertices) list_vertices(b, w, w.b);
   if (o.edge_edge) list_edges(a, w, w.a), list_edges(b, w, w.b);
@@ -287,7 +306,7 @@ bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const 
   const double h = window.t1 - window.t0;
   const T room = 4 * rounding<T> * scale +
                  (o.both_vertices ? T(stray(a, track, h) + stray_of_b(a, b, track, h)) : T(0));
-  if (chords_apart(a, window, room, w)) {
+  if (chords_apart(a, window, room, unit, w)) {
     counts.face_pairs += std::int64_t(1 + first) * w.a.size() * w.b.size();
     counts.edge_faces += std::int64_t(w.a.vertices.size()) * w.b.size();
     if (o.both_vertices) counts.edge_faces += std::int64_t(w.b.vertices.size()) * w.a.size();
