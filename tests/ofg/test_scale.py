@@ -1,4 +1,4 @@
-"""Lengths times a power of two change no answer: not in its last bit, at no size that is supported."""
+"""Lengths times a power of two change no answer, not in its last bit, at any size supported."""
 
 import numpy as np
 import pytest
@@ -70,8 +70,8 @@ def ask(a, b, arrays, options, precision):
 @settings(max_examples=15, deadline=None)
 @given(st.integers(0, 2**32 - 1), st.sampled_from([0.0, 2.0]))
 def test_a_power_of_two_changes_no_answer(precision, seed, angle):
-    """Sweeps in float changed from 2^20 on, and in double from 2^170, since the test of edges against edges multiplies eight
-    lengths with one another."""
+    """Sweeps in float changed from 2^20 on, and in double from 2^170: the test of edges against
+    edges multiplies eight lengths with one another."""
     rng = np.random.default_rng(seed)
     a, b, arrays = hull(rng), hull(rng), rows(rng, 8, angle)
     widest = _core.widest_isa()
