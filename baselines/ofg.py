@@ -12,9 +12,16 @@ from ofg import QUESTIONS, Query
 from .contract import Method, Unsupported, Verdict
 
 #: options that the article does not have; `broad` and `concave` are readings of it
-_REPAIRED = frozenset(
-    {"selection", "adaptive_k", "both_vertices", "edge_edge", "selections", "arc_tolerance", "containment", "earliest"}
-)
+_REPAIRED = frozenset({
+    "nearest",
+    "adaptive_k",
+    "both_vertices",
+    "edge_edge",
+    "selection_times",
+    "arc_tolerance",
+    "containment",
+    "earliest",
+})
 
 
 class OpposingFaceGeometry(Method):
@@ -41,11 +48,11 @@ class OpposingFaceGeometry(Method):
         "broad": "swept",
         "concave": "object",
         "repairs": "none",
-        "selection": "centroid",
+        "nearest": "centroid",
         "adaptive_k": False,
         "both_vertices": False,
         "edge_edge": False,
-        "selections": 1,
+        "selection_times": 1,
         "arc_tolerance": 0.0,
         "containment": False,
         "earliest": False,

@@ -41,7 +41,7 @@ class Store:
     def config(self) -> RunConfig:
         if not (self.folder / "config.json").is_file():
             raise StoreError(f"{self.folder} is no run folder: it has no config.json. Make one with: ofg-bench run quick --out {self.folder}")
-        return RunConfig.model_validate_json((self.folder / "config.json").read_text())
+        return RunConfig.model_validate_json(_of_now((self.folder / "config.json").read_text()))
 
     def has(self, *names: str) -> bool:
         return self.folder.joinpath(*names).exists()
@@ -56,7 +56,21 @@ class Store:
         path = self.folder.joinpath(*names)
         if not path.is_file():
             raise StoreError(f"{path} is missing: the run in {self.folder} is not finished. Finish it with: ofg-bench resume {self.folder}")
-        return pd.read_parquet(path)
+        frame = pd.read_parquet(path)
+        if "method" in frame:
+            frame["method"] = frame["method"].map(_of_now)
+        return frame
+
+
+#: parameters of methods that had another name when a run was recorded, as they stand in its labels
+_RENAMED = {" selection=": " nearest=", " selections=": " selection_times="}
+
+
+def _of_now(text: str) -> str:
+    """Labels of methods as they are written now."""
+    for then, now in _RENAMED.items():
+        text = text.replace(then, now)
+    return text
 
 
 def _replace(path: Path, write) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 #: what the hit is, in the order of the core's codes
-FOUND = ("nothing", "start", "end", "edge-face", "face-edge", "edge-edge", "inside")
+FOUND = ("nothing", "start", "end", "edge-face", "face-edge", "edge-edge", "inside", "within")
 #: what is counted: see `Answer.counts`
 COUNTS = ("spheres", "distances", "face_pairs", "edge_faces", "edge_pairs", "full_tests", "evaluated", "steps")
 
@@ -16,9 +16,14 @@ COUNTS = ("spheres", "distances", "face_pairs", "edge_faces", "edge_pairs", "ful
 class Answer:
     """hit: the bodies meet. time: of impact in [0, 1], NaN where the method gives none (article: only a virtual edge's hit has one).
 
-    found: what met: "start" or "end" (faces at that pose; an overlap query has only "start"), "edge-face" (a virtual edge of A and a face of
-    B) and, with repairs, "face-edge" (a virtual edge of B), "edge-edge", "inside"; "nothing" without a hit.
-    faces: (face of A, face of B) that met, indices into the faces of `pieces`; -1 where no face did.
+    found: what met. "start" or "end": faces at that pose of the step; an overlap query has only
+    "start". "edge-face": a virtual edge of A and a face of B. With repairs also "face-edge": a
+    virtual edge of B; "edge-edge"; "within": faces at a moment within the step, at which one of the
+    parts ends that the repair "arcs" cuts the step into; "inside": a point of one body lies in the
+    other at the start or the end, and none of the k nearest faces met there (with k >= faces, one
+    body is wholly inside the other). "nothing" without a hit.
+    faces: (face of A, face of B) that met, indices into the faces of `pieces`; -1 where no face
+    did, as with "inside".
     pieces: (piece of A, piece of B) that were asked; -1 for an undivided mesh.
     estimate: "velocity", "bisection" or "none": how the time was found.
     counts: operations by kind: spheres (pairs compared), distances (point to face or piece), face_pairs (settled), edge_faces (virtual
@@ -41,7 +46,8 @@ class Answer:
 @dataclass(frozen=True, eq=False)
 class Answers:
     """The fields of `Answer` as arrays over n queries: hit (n,) bool, time (n,) float64, found (n,) int8 (codes: index into FOUND),
-    faces and pieces (n, 2) int32, counts (n, 8) int64 in the order of COUNTS. answers[i] is one Answer."""
+    faces and pieces (n, 2) int32, counts (n, 8) int64 in the order of COUNTS.
+    answers[i] is one Answer. Many answers are neither true nor false: bool(answers) raises ValueError."""
 
     hit: np.ndarray
     time: np.ndarray
@@ -53,6 +59,12 @@ class Answers:
 
     def __len__(self) -> int:
         return len(self.hit)
+
+    def __bool__(self) -> bool:
+        raise ValueError(
+            "Whether many answers are true is ambiguous; use answers.hit.any(), answers.hit.all() "
+            "or len(answers)."
+        )
 
     def __getitem__(self, i: int) -> Answer:
         found = FOUND[self.found[i]]

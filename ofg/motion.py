@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .pose import Pose, _vector
+from . import checks
+from .pose import Pose, near_one
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,7 +18,10 @@ class Motion:
     displacement: d, (3,) float64, length: of the point c over the step. axis: (3,) float64, any non-zero length, fixed in the
     world. angle: radians over the step, any size (2 pi n is n full turns). about: c, (3,) float64, the point of the body, in the
     body's frame, about which it turns; the origin of that frame by default. A Motion() is rest.
-    Raises ValueError for numbers that are not finite, or a zero axis with a non-zero angle.
+    Range: displacement and about up to 1e60, angles up to 1e9, the largest component of the axis of
+    a turn between 1e-300 and 1e300 in size.
+    Raises TypeError for what is no numbers; ValueError for numbers that are not finite or out of
+    range, or a zero axis with a non-zero angle.
     """
 
     displacement: np.ndarray = field(default_factory=lambda: np.zeros(3))
@@ -26,19 +30,22 @@ class Motion:
     about: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     def __post_init__(self):
-        object.__setattr__(self, "displacement", _vector(self.displacement, 3, "displacement"))
-        object.__setattr__(self, "axis", _vector(self.axis, 3, "axis"))
-        object.__setattr__(self, "about", _vector(self.about, 3, "about"))
-        object.__setattr__(self, "angle", float(self.angle))
-        if not np.isfinite(self.angle):
-            raise ValueError(f"Motion.angle = {self.angle} is not finite.")
+        for name in ("displacement", "axis", "about"):
+            vector = checks.vector(getattr(self, name), 3, f"Motion.{name}")
+            object.__setattr__(self, name, vector)
+        object.__setattr__(self, "angle", checks.number(self.angle, "Motion.angle"))
+        checks.lengths(self.displacement, "Motion.displacement")
+        checks.lengths(self.about, "Motion.about")
+        checks.angle(self.angle, "Motion.angle")
         if self.angle and not self.axis.any():
             raise ValueError("Motion.axis is zero while Motion.angle is not; give the axis of the turn.")
+        if self.angle:
+            checks.direction(self.axis, "Motion.axis")
 
     @classmethod
     def degrees(cls, displacement=(0, 0, 0), axis=(0, 0, 1), angle: float = 0.0, about=(0, 0, 0)) -> Motion:
         """A motion whose angle is given in degrees, rounded to double radians."""
-        return cls(displacement, axis, math.radians(angle), about)
+        return cls(displacement, axis, math.radians(checks.number(angle, "angle")), about)
 
     @classmethod
     def between(cls, pose0: Pose, pose1: Pose, about=(0, 0, 0)) -> Motion:
@@ -46,7 +53,9 @@ class Motion:
 
         The body turns by the shorter way, at most half a turn, about its point `about`, which moves on a straight line.
         """
-        about = _vector(about, 3, "about")
+        checks.pose(pose0, "pose0")
+        checks.pose(pose1, "pose1")
+        about = checks.vector(about, 3, "about")
         # Unit quaternions first: the product of unnormalised ones can leave the range of doubles.
         q0, q1 = (p.quaternion / np.abs(p.quaternion).max() for p in (pose0, pose1))
         turn = _multiply(q1, q0 * [1, -1, -1, -1])
@@ -64,16 +73,18 @@ class Motion:
 
     def pose_at(self, start: Pose, t: float) -> Pose:
         """The pose at time t of a body that starts at `start` (double rounding)."""
+        checks.pose(start, "start")
         position = start.position + t * self.displacement
         if not self.angle:
             return Pose(start.quaternion, position)
         half = 0.5 * self.angle * t
-        axis = self.axis / np.abs(self.axis).max()
+        axis = near_one(self.axis)
+        axis = axis / np.abs(axis).max()
         turn = Pose(np.concatenate([[math.cos(half)], math.sin(half) * axis / np.linalg.norm(axis)]))
         if self.about.any():
             arm = start.rotation @ self.about
             position = position + (arm - turn.rotation @ arm)
-        return Pose(_multiply(turn.quaternion, start.quaternion), position)
+        return Pose(_multiply(turn.quaternion, near_one(start.quaternion)), position)
 
 
 def _multiply(p: np.ndarray, q: np.ndarray) -> np.ndarray:

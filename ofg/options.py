@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from typing import Any, Mapping
 
-from . import _core
+from . import _core, checks
 
 TOI = ("none", "velocity", "bisection")
 BROAD = ("start", "swept")
 CONCAVE = ("object", "undivided", "all-pairs")
-SELECTION = ("centroid", "point-triangle")
+NEAREST = ("centroid", "point-triangle")
+#: options that had another name once
+RENAMED = {"selection": "nearest", "selections": "selection_times"}
 
 #: name of a repair -> the options that it sets, and what they are without it.
 REPAIRS: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {
-    "point-triangle": ({"selection": "point-triangle"}, {"selection": "centroid"}),
+    "point-triangle": ({"nearest": "point-triangle"}, {"nearest": "centroid"}),
     "adaptive-k": ({"adaptive_k": True}, {"adaptive_k": False}),
     "swept-spheres": ({"broad": "swept"}, {"broad": "start"}),
     "both-vertices": ({"both_vertices": True}, {"both_vertices": False}),
     "edge-edge": ({"edge_edge": True}, {"edge_edge": False}),
-    "selection-times": ({"selections": 3}, {"selections": 1}),
+    "selection-times": ({"selection_times": 3}, {"selection_times": 1}),
     "arcs": ({"arc_tolerance": 1e-6}, {"arc_tolerance": 0.0}),
     "containment": ({"containment": True}, {"containment": False}),
     "all-pieces": ({"concave": "all-pairs"}, {"concave": "object"}),
@@ -30,8 +32,13 @@ def repair_options(repairs: str) -> dict[str, Any]:
     """Options for a word: "none", "all", "all-but-X", "X" or "X+Y" with X, Y names of REPAIRS.
 
     "all-but-X" sets X's options to what they are without it ("all-but-swept-spheres" tests step 1 at the start pose).
-    Raises ValueError for a name that is not one.
+    Raises TypeError for what is no word, ValueError for a name that is not one.
     """
+    if not isinstance(repairs, str):
+        raise TypeError(
+            f"repairs = {repairs!r} must be a word; join several repairs with +, as in "
+            "'arcs+containment'."
+        )
     if repairs == "none":
         return {}
     off = [repairs.removeprefix("all-but-")] if repairs.startswith("all-but-") else []
@@ -48,41 +55,43 @@ def repair_options(repairs: str) -> dict[str, Any]:
     return options
 
 
-def core_options(*, k: int = 8, toi: str = "velocity", repairs: str = "none", **own: Any) -> _core.Options:
-    """The core's options. `repairs` is applied first; what is given by its own name overrules it. See `discrete` for each."""
+def core_options(
+    *, k: int = 8, toi: str = "velocity", repairs: str = "none", **own: Any
+) -> _core.Options:
+    """The core's options. `repairs` is applied first; what is given by its own name overrules it.
+    See `discrete` for each, and for what is raised."""
     chosen = {**repair_options(repairs), **own}
     o = _core.Options()
-    o.k = _whole("k", k, 1)
-    o.toi = _one_of("toi", toi, TOI)
-    o.broad = _one_of("broad", chosen.pop("broad", "swept"), BROAD)
-    o.concave = _one_of("concave", chosen.pop("concave", "object"), CONCAVE)
-    o.nearest = _one_of("selection", chosen.pop("selection", "centroid"), SELECTION)
-    o.selections = _whole("selections", chosen.pop("selections", 1), 1, 3)
-    o.iterations = _whole("iterations", chosen.pop("iterations", 20), 1, 60)
-    o.arc_tolerance = float(chosen.pop("arc_tolerance", 0.0))
-    if not 0 <= o.arc_tolerance < 1:
-        raise ValueError(
-            f"arc_tolerance = {o.arc_tolerance} must lie in [0, 1): the share of A's radius that a chord may stray by; 0 cuts no arcs."
-        )
+    o.k = checks.whole("k", k, 1)
+    o.toi = checks.one_of("toi", toi, TOI)
+    o.broad = checks.one_of("broad", chosen.pop("broad", "swept"), BROAD)
+    o.concave = checks.one_of("concave", chosen.pop("concave", "object"), CONCAVE)
+    o.nearest = checks.one_of("nearest", chosen.pop("nearest", "centroid"), NEAREST)
+    o.selection_times = checks.whole("selection_times", chosen.pop("selection_times", 1), 1, 3)
+    o.iterations = checks.whole("iterations", chosen.pop("iterations", 20), 1, 60)
+    o.arc_tolerance = _tolerance(chosen.pop("arc_tolerance", 0.0))
     for name in ("adaptive_k", "both_vertices", "edge_edge", "containment", "earliest", "screen"):
-        setattr(o, name, bool(chosen.pop(name, False)))
+        setattr(o, name, checks.truth(name, chosen.pop(name, False)))
     if chosen:
-        raise TypeError(
-            f"OFG has no option '{next(iter(chosen))}'; it has k, toi, broad, concave, iterations, repairs, selection, adaptive_k, "
-            "both_vertices, edge_edge, selections, arc_tolerance, containment, earliest, screen."
-        )
+        _refuse(next(iter(chosen)))
     return o
 
 
-def _one_of(name: str, value: str, known: tuple[str, ...]) -> int:
-    if value not in known:
-        raise ValueError(f"{name} = {value!r} is unknown; use one of {', '.join(known)}.")
-    return known.index(value)
-
-
-def _whole(name: str, value: int, least: int, most: int = 2**31 - 1) -> int:
-    if isinstance(value, bool) or int(value) != value or not least <= value <= most:
+def _tolerance(value: Any) -> float:
+    tolerance = checks.number(value, "arc_tolerance")
+    if not 0 <= tolerance < 1:
         raise ValueError(
-            f"{name} = {value!r} must be a whole number of {least} or more{f', at most {most}' if most < 2**31 - 1 else ''}."
+            f"arc_tolerance = {tolerance} must lie in [0, 1): the share of A's radius that a chord "
+            "may stray by; 0 cuts no arcs."
         )
-    return int(value)
+    return tolerance
+
+
+def _refuse(name: str) -> None:
+    if name in RENAMED:
+        raise TypeError(f"OFG has no option '{name}' any more; it is called '{RENAMED[name]}'.")
+    raise TypeError(
+        f"OFG has no option '{name}'; it has k, toi, broad, concave, iterations, repairs, nearest, "
+        "adaptive_k, both_vertices, edge_edge, selection_times, arc_tolerance, containment, "
+        "earliest, screen."
+    )

@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from . import checks
+
 
 @dataclass(frozen=True, eq=False)
 class Pose:
@@ -14,22 +16,29 @@ class Pose:
     quaternion: (4,) float64, (w, x, y, z), any non-zero length: the rotation it stands for is N(q)/|q|^2, which needs no
     normalisation and is rational in q, so the truth can be exact.
     position: (3,) float64, length unit of the bodies.
-    Raises ValueError for a wrong shape, a number that is not finite, or the zero quaternion.
+    Range: the largest component of the quaternion between 1e-300 and 1e300 in size, positions up to
+    1e60. Within it a quaternion's length changes nothing.
+    Raises TypeError for what is no numbers; ValueError for a wrong shape, a number that is not
+    finite or out of range, or the zero quaternion.
     """
 
     quaternion: np.ndarray = field(default_factory=lambda: np.array([1.0, 0.0, 0.0, 0.0]))
     position: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     def __post_init__(self):
-        object.__setattr__(self, "quaternion", _vector(self.quaternion, 4, "quaternion"))
-        object.__setattr__(self, "position", _vector(self.position, 3, "position"))
+        quaternion = checks.vector(self.quaternion, 4, "Pose.quaternion")
+        object.__setattr__(self, "quaternion", quaternion)
+        object.__setattr__(self, "position", checks.vector(self.position, 3, "Pose.position"))
         if not self.quaternion.any():
             raise ValueError("Pose.quaternion is zero, which is no rotation; use (1, 0, 0, 0) for none.")
+        checks.direction(self.quaternion, "Pose.quaternion")
+        checks.lengths(self.position, "Pose.position")
 
     @property
     def rotation(self) -> np.ndarray:
         """(3, 3) float64 rotation matrix, rounded to double."""
-        w, x, y, z = self.quaternion / np.linalg.norm(self.quaternion)
+        q = near_one(self.quaternion)
+        w, x, y, z = q / np.linalg.norm(q)
         return np.array([
             [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
             [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -49,11 +58,8 @@ class Pose:
         return np.asarray(points, float) @ self.rotation.T + self.position
 
 
-def _vector(value, size: int, name: str) -> np.ndarray:
-    v = np.array(value, dtype=np.float64)
-    if v.shape != (size,):
-        raise ValueError(f"{name} must have shape ({size},), not {v.shape}.")
-    if not np.isfinite(v).all():
-        raise ValueError(f"{name} = {v} holds a number that is not finite; every component must be a finite number.")
-    v.setflags(write=False)
-    return v
+def near_one(v: np.ndarray) -> np.ndarray:
+    """The vector, or where products of its components may leave the range of doubles the vector
+    times a power of two, which is exact, so that its largest component is near 1. Not for zero."""
+    largest = np.abs(v).max()
+    return v if 1e-50 < largest < 1e50 else np.ldexp(v, -int(np.frexp(largest)[1]))

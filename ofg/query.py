@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from . import checks
 from .body import Body
 from .motion import Motion
 from .pose import Pose
@@ -17,7 +18,8 @@ class Query:
 
     question: "overlap": at the given poses. "translation": while the bodies translate in t in [0, 1]. "motion": while they turn
     and translate. motion: that of A. motion_b: that of B, which rests by default.
-    Raises ValueError where a motion does not fit the question.
+    Raises TypeError for a field of another type, ValueError where a motion does not fit the
+    question.
     """
 
     question: str
@@ -29,8 +31,13 @@ class Query:
     motion_b: Motion = field(default_factory=Motion)
 
     def __post_init__(self):
-        if self.question not in QUESTIONS:
-            raise ValueError(f"Query.question = '{self.question}' is unknown; use one of {', '.join(QUESTIONS)}.")
+        checks.one_of("Query.question", self.question, QUESTIONS)
+        for name in ("a", "b"):
+            checks.body(getattr(self, name), f"Query.{name}")
+        for name in ("pose_a", "pose_b"):
+            checks.pose(getattr(self, name), f"Query.{name}")
+        for name in ("motion", "motion_b"):
+            checks.motion(getattr(self, name), f"Query.{name}")
         for name, motion in (("motion", self.motion), ("motion_b", self.motion_b)):
             if self.question == "overlap" and not motion.rests:
                 raise ValueError(f"Query.question = 'overlap' asks about one pair of poses, but {name} moves; ask 'translation' or 'motion'.")

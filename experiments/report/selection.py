@@ -99,9 +99,13 @@ class _Options:
 
     def __init__(self, k=8, repairs="none", **own):
         o = {**ofg.repair_options(repairs), **own}
-        self.k, self.nearest, self.adaptive_k = k, o.get("selection", "centroid"), o.get("adaptive_k", False)
+        self.k, self.nearest, self.adaptive_k = (
+            k,
+            o.get("nearest", "centroid"),
+            o.get("adaptive_k", False),
+        )
         self.selections, self.arc_tolerance, self.both_vertices = (
-            o.get("selections", 1),
+            o.get("selection_times", 1),
             o.get("arc_tolerance", 0.0),
             o.get("both_vertices", False),
         )

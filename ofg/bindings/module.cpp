@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -19,12 +21,48 @@ namespace {
 using Doubles = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Ints = nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
+// Rows of arrays: quaternion and position; displacement, axis, angle and the point turned about.
+constexpr std::size_t pose_columns = 7, motion_columns = 10;
+
+// What enters native code is checked here too: a wrong index or width would read what is not there.
+void check_width(const Doubles& rows, std::size_t columns, const char* what) {
+  if (rows.shape(1) != columns)
+    throw nb::value_error(
+        (std::string(what) + " must have " + std::to_string(columns) + " columns").c_str());
+}
+void check_finite(const Doubles& rows, const char* what) {
+  double sum = 0;  // x - x is 0, or no number
+  for (std::size_t i = 0; i < rows.size(); ++i) sum += rows.data()[i] - rows.data()[i];
+  if (sum != 0)
+    throw nb::value_error((std::string(what) + " holds a number that is not finite").c_str());
+}
+void check_rows(const Doubles& rows, std::size_t n, std::size_t columns, const char* what) {
+  check_width(rows, columns, what);
+  if (rows.shape(0) != n)
+    throw nb::value_error(
+        (std::string(what) + " must have " + std::to_string(n) + " rows").c_str());
+  check_finite(rows, what);
+}
+void check_mesh(const Doubles& v, const Ints& f) {
+  check_width(v, 3, "vertices");
+  check_finite(v, "vertices");
+  if (f.shape(1) != 3) throw nb::value_error("faces must have 3 columns");
+  if (v.shape(0) == 0 || f.shape(0) == 0) throw nb::value_error("a body needs a vertex and a face");
+  for (std::size_t i = 0; i < f.size(); ++i)
+    if (f.data()[i] < 0 || std::size_t(f.data()[i]) >= v.shape(0))
+      throw nb::value_error("faces name a vertex that is not there");
+}
+
 // A body in both precisions.
 struct Solid {
   ofg::Body<double> fine;
   ofg::Body<float> coarse;
 
   Solid(Doubles v, Ints f, bool convex, const std::vector<Doubles>& pv, const std::vector<Ints>& pf) {
+    check_mesh(v, f);
+    if (pv.size() != pf.size())
+      throw nb::value_error("piece_vertices and piece_faces must be of one length");
+    for (std::size_t i = 0; i < pv.size(); ++i) check_mesh(pv[i], pf[i]);
     fill(fine, v, f, convex, pv, pf);
     fill(coarse, v, f, convex, pv, pf);
   }
@@ -49,6 +87,20 @@ struct Solid {
 
 enum class Algorithm { ofg, brute_force };
 
+Algorithm algorithm_of(int how) {
+  if (how != 0 && how != 1) throw nb::value_error("algorithm must be 0 (OFG) or 1 (brute force)");
+  return Algorithm(how);
+}
+
+void check_options(const ofg::Options& o) {
+  const bool words = int(o.toi) >= 0 && int(o.toi) < 3 && int(o.broad) >= 0 && int(o.broad) < 2 &&
+                     int(o.concave) >= 0 && int(o.concave) < 3 && int(o.nearest) >= 0 &&
+                     int(o.nearest) < 2;
+  if (!words || o.k < 1 || o.selection_times < 1 || o.selection_times > 3 || o.iterations < 1 ||
+      !(o.arc_tolerance >= 0))
+    throw nb::value_error("an option is out of range");
+}
+
 template <class T>
 ofg::Answer ask(Algorithm how, bool moving, const Solid& a, const Solid& b, const ofg::Track& track, const ofg::Options& o,
                 ofg::Workspace<T>& w) {
@@ -58,8 +110,6 @@ ofg::Answer ask(Algorithm how, bool moving, const Solid& a, const Solid& b, cons
   return moving ? ofg::sweep(ba, bb, track, o, w) : ofg::overlap(ba, bb, track, o, w);
 }
 
-// Rows of arrays: quaternion and position; displacement, axis, angle and the point turned about.
-constexpr std::size_t pose_columns = 7, motion_columns = 10;
 ofg::Pose pose_of(const double* p) { return {{p[0], p[1], p[2], p[3]}, {p[4], p[5], p[6]}}; }
 ofg::Motion motion_of(const double* m) {
   return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, m[6], {m[7], m[8], m[9]}};
@@ -88,18 +138,25 @@ struct Prepared {
         keep_b(ob),
         a(nb::cast<const Solid&>(oa)),
         b(nb::cast<const Solid&>(ob)),
-        pose_a(pose_of(poses.data())),
+        pose_a(pose_of(checked(poses, motions).data())),
         pose_b(pose_of(poses.data() + pose_columns)),
         motion_a(motion_of(motions.data())),
         motion_b(motion_of(motions.data() + motion_columns)),
         options(o),
-        how(Algorithm(how_)),
+        how(algorithm_of(how_)),
         moving(moving_),
         single(single_) {
+    check_options(o);
     if (single)
       workspace<float>().reserve(a.coarse, b.coarse);
     else
       workspace<double>().reserve(a.fine, b.fine);
+  }
+
+  static const Doubles& checked(const Doubles& poses, const Doubles& motions) {
+    check_rows(poses, 2, pose_columns, "poses");
+    check_rows(motions, 2, motion_columns, "motions");
+    return poses;
   }
 
   ofg::Answer answer() {
@@ -149,6 +206,10 @@ nb::ndarray<nb::numpy, T> array(std::vector<std::size_t> shape, T*& data) {
 nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubles ma, Doubles mb, const ofg::Options& o, int how,
                    bool moving, bool single, int threads) {
   const std::size_t n = pa.shape(0);
+  check_rows(pa, n, pose_columns, "poses_a"), check_rows(pb, n, pose_columns, "poses_b");
+  check_rows(ma, n, motion_columns, "motions_a"), check_rows(mb, n, motion_columns, "motions_b");
+  check_options(o);
+  const Algorithm algorithm = algorithm_of(how);
   std::vector<ofg::Answer> answers(n);
   {
     nb::gil_scoped_release released;
@@ -156,11 +217,17 @@ nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubl
     const std::size_t parts = std::min<std::size_t>(std::max(threads, 1), std::max<std::size_t>(n, 1));
     std::vector<std::thread> others;
     const auto part = [&](std::size_t i) {
-      range(Algorithm(how), moving, a, b, pa.data(), pb.data(), ma.data(), mb.data(), o, n * i / parts, n * (i + 1) / parts,
-            answers.data());
+      range(algorithm, moving, a, b, pa.data(), pb.data(), ma.data(), mb.data(), o, n * i / parts,
+            n * (i + 1) / parts, answers.data());
     };
-    for (std::size_t i = 1; i < parts; ++i) others.emplace_back(part, i);
+    std::size_t started = 1;
+    try {
+      for (; started < parts; ++started) others.emplace_back(part, started);
+    } catch (const std::system_error&) {
+      // The machine has no more threads to give: this one does the rest.
+    }
     part(0);
+    for (std::size_t i = started; i < parts; ++i) part(i);
     for (auto& t : others) t.join();
   }
   bool* hit;
@@ -189,6 +256,7 @@ nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubl
 // Triangle against triangle, pair by pair: (n, 18) rows of six corners. For the tests.
 template <class T>
 nb::ndarray<nb::numpy, bool> triangles_meet(Doubles pairs) {
+  check_width(pairs, 18, "pairs");
   bool* meet;
   auto out = array<bool>({pairs.shape(0)}, meet);
   for (std::size_t i = 0; i < pairs.shape(0); ++i) {
@@ -203,6 +271,7 @@ nb::ndarray<nb::numpy, bool> triangles_meet(Doubles pairs) {
 
 // The support function by table, relative to the centre in units of the radius: a point per axis. For the tests.
 nb::ndarray<nb::numpy, double> least_points(const Solid& solid, Doubles axes) {
+  check_width(axes, 3, "axes");
   double* points;
   auto out = array<double>({axes.shape(0), 3}, points);
   for (std::size_t i = 0; i < axes.shape(0); ++i) {
@@ -217,6 +286,7 @@ nb::ndarray<nb::numpy, double> least_points(const Solid& solid, Doubles axes) {
 // Bounds on how far vertices of A seen from B, and those of B that meet A seen from A, stray over a
 // share of the step. For the tests.
 nb::tuple strays(const Solid& a, const Solid& b, Doubles poses, Doubles motions, double share) {
+  check_rows(poses, 2, pose_columns, "poses"), check_rows(motions, 2, motion_columns, "motions");
   const double *p = poses.data(), *m = motions.data();
   const ofg::Track track(pose_of(p), pose_of(p + pose_columns), motion_of(m),
                          motion_of(m + motion_columns));
@@ -254,7 +324,7 @@ NB_MODULE(_core, m) {
       .def_rw("adaptive_k", &ofg::Options::adaptive_k)
       .def_rw("both_vertices", &ofg::Options::both_vertices)
       .def_rw("edge_edge", &ofg::Options::edge_edge)
-      .def_rw("selections", &ofg::Options::selections)
+      .def_rw("selection_times", &ofg::Options::selection_times)
       .def_rw("arc_tolerance", &ofg::Options::arc_tolerance)
       .def_rw("containment", &ofg::Options::containment)
       .def_rw("earliest", &ofg::Options::earliest)

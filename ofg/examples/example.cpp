@@ -30,7 +30,7 @@ int main() {
 
   ofg::Options repaired = as_written;
   repaired.adaptive_k = repaired.both_vertices = repaired.edge_edge = repaired.containment = repaired.earliest = true;
-  repaired.selections = 3, repaired.arc_tolerance = 1e-6;
+  repaired.selection_times = 3, repaired.arc_tolerance = 1e-6;
   const ofg::Motion motion{{6, 0, 0}, {0, 0, 1}, 3.0};  // flies along x, turning 3 radians about z
   for (const ofg::Options& options : {as_written, repaired}) {
     const ofg::Answer answer = ofg::sweep(rod, wall, {start, origin, motion}, options, memory);

@@ -42,3 +42,14 @@ def test_an_unfinished_run_says_how_to_finish_it(tmp_path):
 def test_no_run_folder_is_said(tmp_path):
     with pytest.raises(StoreError, match="no run folder"):
         Store(tmp_path).config
+
+
+def test_labels_of_an_earlier_run_are_read_as_they_are_written_now(tmp_path):
+    """`nearest` was once `selection`, and `selection_times` was `selections`."""
+    then = CONFIG.model_copy(update={"methods": ("ofg k=8,64 selection=point-triangle",)})
+    store = Store(tmp_path / "run")
+    store.begin(then)
+    labels = ["ofg k=8 selection=point-triangle", "ofg k=8 repairs=selection-times", "fcl-mesh"]
+    store.write(pd.DataFrame({"method": labels}), "rows.parquet")
+    assert store.config.methods == ("ofg k=8,64 nearest=point-triangle",)
+    assert list(store.read("rows.parquet").method) == ["ofg k=8 nearest=point-triangle", *labels[1:]]

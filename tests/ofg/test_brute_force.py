@@ -73,18 +73,25 @@ def test_k_below_the_number_of_faces_misses_and_never_invents(hulls):
 def test_adaptive_k_finds_all_at_any_k(hulls):
     """No face that could meet the other body is left out, so one face to start from is as good as all."""
     rng = np.random.default_rng(6)
-    for selection in ("centroid", "point-triangle"):
+    for nearest in ("centroid", "point-triangle"):
         for a, b in zip(hulls, hulls[1:]):
             pa, pb = rows_of_poses(rng, 200, 0), rows_of_poses(rng, 200, 0.9)
-            got = ofg.discrete_many(a, b, pa, pb, k=1, adaptive_k=True, selection=selection)
+            got = ofg.discrete_many(a, b, pa, pb, k=1, adaptive_k=True, nearest=nearest)
             assert np.array_equal(got.hit, ofg.brute_force_many(a, b, pa, pb).hit)
 
 
 @pytest.mark.parametrize("angle", [0.0, 2.0])
-@pytest.mark.parametrize("selections", [1, 2, 3])
-def test_adaptive_k_sweeps_find_all_at_any_k(hulls, angle, selections):
+@pytest.mark.parametrize("times", [1, 2, 3])
+def test_adaptive_k_sweeps_find_all_at_any_k(hulls, angle, times):
     rng = np.random.default_rng(8)
-    options = dict(adaptive_k=True, both_vertices=True, edge_edge=True, earliest=True, selections=selections, arc_tolerance=0.01)
+    options = dict(
+        adaptive_k=True,
+        both_vertices=True,
+        edge_edge=True,
+        earliest=True,
+        selection_times=times,
+        arc_tolerance=0.01,
+    )
     for a, b in zip(hulls[:6], hulls[3:]):
         pa, pb, m = rows_of_poses(rng, 50, 3), rows_of_poses(rng, 50, 0), rows_of_motions(rng, 50, 6, angle)
         got, want = (ofg.sweep_many(a, b, pa, pb, m, k=k, **options) for k in (1, ALL))

@@ -118,13 +118,19 @@ def test_far_from_the_origin_nothing_is_lost(cube):
 
 @pytest.mark.parametrize("repairs", ["none", "all"])
 def test_numbers_that_overflow_crash_nothing(ball, cube, repairs):
-    """The fuzzer found an empty selection, and with it reads past the faces, where distances are NaN."""
+    """The fuzzer found an empty selection, and with it reads past the faces, where distances are NaN.
+    Python refuses such numbers; a program that calls the core gives it what it likes."""
+    options = ofg.options.core_options(repairs=repairs)
     for far in (1e160, 1e300):
+        here = np.array([[1, 0, 0, 0, far, -far, far]])
+        motion = np.array([[far, far, 0, 0, 0, 1, 0, 0, 0, 0]])
         for a, b in ((ball, cube), (cube, ball)):
-            pose = Pose(position=(far, -far, far))
-            for other in (pose, Pose()):
-                ofg.discrete(a, b, pose, other, repairs=repairs)
-                ofg.translational_sweep(a, b, (far, far, 0), pose, other, repairs=repairs)
+            for there in (here, np.array([[1.0, 0, 0, 0, 0, 0, 0]])):
+                for moving in (False, True):
+                    bodies = [ofg.algorithm.solid(x) for x in (a, b)]
+                    ofg._core.ask_many(
+                        *bodies, here, there, motion, motion * 0 + 1, options, 0, moving, False, 1
+                    )
 
 
 def test_a_face_with_a_doubled_corner_is_still_selected():
@@ -133,8 +139,10 @@ def test_a_face_with_a_doubled_corner_is_still_selected():
     vertices = np.concatenate([CUBE[cube.faces[0]][:1], CUBE])
     a = ofg._core.Solid(vertices, np.array([[0, cube.faces[0][0] + 1, 7]], np.int32), True, [], [])
     b = ofg.algorithm.solid(cube)
-    options = ofg.options.core_options(selection="point-triangle", concave="undivided", adaptive_k=True)
-    here, rest = np.array([[1.0, 0, 0, 0, 0, 0, 0]]), np.zeros((1, 7))
+    options = ofg.options.core_options(
+        nearest="point-triangle", concave="undivided", adaptive_k=True
+    )
+    here, rest = np.array([[1.0, 0, 0, 0, 0, 0, 0]]), np.zeros((1, 10))
     hit, *_ = ofg._core.ask_many(a, b, here, here, rest, rest, options, 0, False, False, 1)
     assert hit[0]
 

@@ -48,8 +48,8 @@ def question(seed, length=4.0, angle=3.0):
 
 
 def same(one, other, late=2e-5):
-    """Both miss, or both hit at one time. A chord may stray by 1e-6 of A's radius, and times move by
-    more where bodies graze."""
+    """Both miss, or both hit at one time. A chord may stray by 1e-6 of A's radius, and times move
+    by more where bodies graze."""
     assert one.hit == other.hit
     assert not one.hit or abs(one.time - other.time) <= late
 
@@ -64,8 +64,8 @@ def test_a_and_b_may_change_places(seed):
 @settings(max_examples=100, deadline=None)
 @given(seeds)
 def test_what_both_bodies_do_changes_nothing(seed):
-    """Displacements are dyadic, so that adding one to both leaves the relative one exact: the answers
-    are the same to the last bit."""
+    """Displacements are dyadic, so that adding one to both leaves the relative one exact: the
+    answers are the same to the last bit."""
     q = question(seed)
     more = np.array([64.0, -32.5, 16.25])
     moved = [
@@ -194,9 +194,9 @@ def _lever(body, motion):
 
 @settings(max_examples=100, deadline=None)
 @given(seeds, st.sampled_from(["centroid", "point-triangle"]))
-def test_adaptive_k_finds_the_same_from_any_k(seed, selection):
+def test_adaptive_k_finds_the_same_from_any_k(seed, nearest):
     q = question(seed)
-    options = dict(repairs="all", arc_tolerance=1e-4, selection=selection)
+    options = dict(repairs="all", arc_tolerance=1e-4, nearest=nearest)
     one, all_faces = ofg.ask(q, k=1, **options), ofg.ask(q, k=ALL, **options)
     assert one.hit == all_faces.hit and np.isclose(
         one.time, all_faces.time, rtol=0, atol=1e-9, equal_nan=True
@@ -204,9 +204,9 @@ def test_adaptive_k_finds_the_same_from_any_k(seed, selection):
 
 
 def test_a_tip_that_flies_past_a_spinning_plate_is_met():
-    """Seen from A, which spins, the tip of B runs on a parabola that dips 0.004 into a face, off its
-    edges. Windows were halved only until A's own arcs were true enough, whatever the chords of B's
-    vertices strayed by: 0.12 here."""
+    """Seen from A, which spins, the tip of B runs on a parabola that dips 0.004 into a face, off
+    its edges. Windows were halved only until A's own arcs were true enough, whatever the chords of
+    B's vertices strayed by: 0.12 here."""
     plate = Body.convex(CUBE * (1, 1, 0.01), "plate")
     needle = Body.convex(
         [[0, 0, 0], [1e-4, 0, -4], [-1e-4, 1e-4, -4], [-1e-4, -1e-4, -4]], "needle"

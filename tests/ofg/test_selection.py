@@ -17,7 +17,7 @@ def test_point_triangle_selects_what_a_full_sort_selects(k):
     seen = 0
     for _ in range(60):
         pose = Pose(position=rng.uniform(-3, 3, 3))
-        answer = ofg.discrete(stretched, ball, pose, k=k, selection="point-triangle")
+        answer = ofg.discrete(stretched, ball, pose, k=k, nearest="point-triangle")
         centre = ball.vertices.mean(axis=0) - pose.position
         triangles = stretched.vertices[stretched.faces]
         closest = trimesh.triangles.closest_point(triangles, np.tile(centre, (len(triangles), 1)))

@@ -22,7 +22,17 @@ struct Counts {
 };
 
 // What the hit is.
-enum class Found : std::int8_t { nothing, start, end, edge_face, face_edge, edge_edge, inside };
+// within: faces at the end of a window within the step, which arcs are cut into
+enum class Found : std::int8_t {
+  nothing,
+  start,
+  end,
+  edge_face,
+  face_edge,
+  edge_edge,
+  inside,
+  within
+};
 
 struct Answer {
   bool hit = false;

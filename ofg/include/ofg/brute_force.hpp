@@ -21,12 +21,20 @@ struct Box {
 };
 
 template <class T>
+Triangle<T> in_units(const Triangle<T>& t, T unit) {
+  return {t.a * unit, t.b * unit, t.c * unit};
+}
+
+template <class T>
 bool surfaces_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T scale, Answer& answer) {
+  const T unit = unit_for(scale);
+  const Transform<T> pose = to_b.in_units(unit);
+  scale *= unit;
   for (int i = 0; i < a.size(); ++i) {
-    const Triangle<T> t = a.triangle(i), s{to_b(t.a), to_b(t.b), to_b(t.c)};
+    const Triangle<T> t = a.triangle(i), s{pose(t.a), pose(t.b), pose(t.c)};
     const Box<T> box(s);
     for (int j = 0; j < b.size(); ++j) {
-      const Triangle<T> other = b.triangle(j);
+      const Triangle<T> other = in_units(b.triangle(j), unit);
       ++answer.counts.face_pairs;
       if (box.apart(Box<T>(other), 2 * rounding<T> * scale)) continue;
       ++answer.counts.full_tests;
@@ -60,11 +68,14 @@ Answer sweep(const Body<T>& a, const Body<T>& b, const Track& track) {
   const ofg::detail::Window<T> window{0, 1, track.at(0), track.at(1)};
   const Transform<T> start(window.start), end(window.end);
   const T scale = ofg::detail::scale_of(ma, mb, track, window);
+  const T unit = unit_for(scale);
+  const Transform<T> from = start.in_units(unit), to = end.in_units(unit);
   ofg::detail::Contact contact;
   for (int i = 0; i < ma.vertices.size(); ++i)
     for (int j = 0; j < mb.size(); ++j) {
       ++answer.counts.edge_faces;
-      const T share = segment_meets(start(ma.vertices[i]), end(ma.vertices[i]), mb.triangle(j), scale);
+      const Triangle<T> face = detail::in_units(mb.triangle(j), unit);
+      const T share = segment_meets(from(ma.vertices[i]), to(ma.vertices[i]), face, scale * unit);
       if (share >= 0 && share < contact.share) contact = {Found::edge_face, double(share), i, j, -1, j};
     }
   if (contact.found != Found::nothing) {

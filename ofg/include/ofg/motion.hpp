@@ -29,6 +29,12 @@ struct Transform {
     const Mat3<T> t = r.transposed();
     return {t, -(t * p)};
   }
+  // What is moved comes out in another unit of length.
+  Transform in_units(T unit) const {
+    Transform u{r, p * unit};
+    for (auto& row : u.r.row) row = row * unit;
+    return u;
+  }
   template <class U>
   explicit operator Transform<U>() const {
     Transform<U> u;
@@ -38,9 +44,15 @@ struct Transform {
   }
 };
 
-// N(q)/|q|^2 without a square root: 180 and 90 degree turns about the axes are exact.
+// N(q)/|q|^2 without a square root: 180 and 90 degree turns about the axes are exact. In another
+// unit where squares leave the range of numbers.
 inline Mat3<double> rotation(const double (&q)[4]) {
-  const double w = q[0], x = q[1], y = q[2], z = q[3], n = w * w + x * x + y * y + z * z;
+  double w = q[0], x = q[1], y = q[2], z = q[3], n = w * w + x * x + y * y + z * z;
+  if (!(n > 1e-100 && n < 1e100)) {
+    const double unit = unit_of(std::fmax(std::abs(w), largest(Vec3<double>(x, y, z))));
+    w *= unit, x *= unit, y *= unit, z *= unit;
+    n = w * w + x * x + y * y + z * z;
+  }
   Mat3<double> m;
   m.row[0] = {(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n};
   m.row[1] = {2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n};
@@ -63,10 +75,12 @@ struct Mover {
                      // world; zero where nothing turns
 
   Mover(const Pose& pose, const Motion& m) : r(rotation(pose.q)), p(pose.p), motion(m) {
-    if (turns())
+    if (turns()) {
       arm = r * m.about;
-    else
+      motion.axis = m.axis * unit_of(largest(m.axis));  // its square stays in range
+    } else {
       motion.about = {};  // where nothing turns any point will do
+    }
   }
   bool turns() const { return motion.angle != 0; }
   Mat3<double> turned(double t) const { return turn(motion.axis, motion.angle * t); }

@@ -21,7 +21,8 @@ struct Options {
   bool adaptive_k = false;            // k grows until no face left out can reach the other's bounding sphere
   bool both_vertices = false;         // virtual edges from the vertices of B as well
   bool edge_edge = false;             // moving edges of A against edges of B
-  int selections = 1;                 // made at the start; 2: and at the end; 3: and where the centres pass closest
+  int selection_times =
+      1;  // made at the start; 2: and at the end; 3: and where the centres pass closest
   double arc_tolerance = 0;           // > 0: cut the step so that no chord strays more than this share of A's radius
   bool containment = false;           // one body inside the other counts
   bool earliest = false;              // the earliest of all hits instead of the first found

@@ -79,6 +79,9 @@ bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Vec3<T> a
   return false;
 }
 
+// Asked when the k faces nearest do not meet, since bodies that cross have faces to name, and
+// before k grows: all faces cost up to a hundred times as much where the bodies are deep in one
+// another.
 template <class T>
 bool holds(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& a_to_b, const Options& o, Answer& answer) {
   if (!o.containment || !one_inside_other(a, b, a_to_b)) return false;
@@ -107,8 +110,10 @@ void oppose(const Mesh<T>& a, const Mesh<T>& b, const Near<T>& near, const Optio
   ++counts.spheres;
   if (spheres_apart(Vec3<double>(centre_a - w.b.centre), double(w.a.radius) + double(w.b.radius) + near.slack)) return;  // 6
   if constexpr (Last < 8) return;
-  move(near.to_b, w.a);
-  answer.hit = faces_meet(w.a, w.b, scale_of(a, b, near.to_b.p), centre_a - w.b.centre, near.screened, w, answer);  // 8
+  const T scale = scale_of(a, b, near.to_b.p), unit = unit_for(scale);
+  move(near.to_b.in_units(unit), w.a), measure_in(unit, w.b);
+  answer.hit = faces_meet(w.a, w.b, scale * unit, (centre_a - w.b.centre) * unit, near.screened, w,
+                          answer);  // 8
   if (answer.hit) answer.found = Found::start;
 }
 
@@ -119,16 +124,29 @@ bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T
   const CloudView<T> hull_a = a.cloud.view(), hull_b = b.cloud.view();
   static constexpr T zeros[lanes<T>] = {};
   const CloudView<T> origin{zeros, zeros, zeros, lanes<T>};
-  return separated(
-      axis, gap, [&](const Vec3<T>& v) { return to_b(support(hull_a, origin, back * v)) + support(origin, hull_b, v); }, 24);
+  const T unit = unit_for(scale_of(a, b, to_b.p));
+  const auto least = [&](const Vec3<T>& v) {
+    return (to_b(support(hull_a, origin, back * v)) + support(origin, hull_b, v)) * unit;
+  };
+  return separated(axis, gap * unit, least, 24);
+}
+
+// Steps 2 to 8 with k as it is, whatever repairs there are.
+template <int Last, class T>
+void oppose_once(const Mesh<T>& a, const Mesh<T>& b, const Near<T>& near, const Options& o,
+                 Workspace<T>& w, Answer& answer) {
+  Options once = o;
+  once.adaptive_k = false;
+  oppose<Last>(a, b, near, once, w, answer);
 }
 
 }  // namespace detail
 
-// Convex or not, `a` and `b` are tested as surfaces (with `containment` as solids). Does not allocate once `w` has room for both.
-// Adaptive k starts from k, and grows only where neither faces that meet nor a plane between the bodies settles the matter.
-// Last: the step after which to stop, so that the cost of each can be measured; nothing else has a use for less than 8.
-// screened: what a screen of this pair has said already.
+// Convex or not, `a` and `b` are tested as surfaces (with `containment` as solids). Does not
+// allocate once `w` has room for both. Adaptive k starts from k, and grows only where neither faces
+// that meet, nor a plane between the bodies, nor containment settles the matter. Last: the step
+// after which to stop, so that the cost of each can be measured; nothing else has a use for less
+// than 8. screened: what a screen of this pair has said already.
 template <int Last = 8, class T>
 Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o, Workspace<T>& w,
                Screened screened = Screened::unknown) {
@@ -141,19 +159,11 @@ Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Opt
   const bool screens = (o.screen || o.adaptive_k) && screened == Screened::unknown;
   if (screens && detail::screened_apart(a, b, pose, {}, 4 * slack)) return answer;
   const detail::Near<T> near{Transform<T>(pose), Transform<T>(pose.inverse()), slack, screened};
-  if (detail::holds(a, b, near.to_b, o, answer)) {
-    answer.hit = true;
-    return answer;
-  }
-  if (!o.adaptive_k) {
-    detail::oppose<Last>(a, b, near, o, w, answer);
-    return answer;
-  }
-  Options first = o;
-  first.adaptive_k = false;
-  detail::oppose<Last>(a, b, near, first, w, answer);
+  detail::oppose_once<Last>(a, b, near, o, w, answer);
   Vec3<T> axis(apart);
-  if (answer.hit || detail::hulls_apart(a, b, near.to_b, T(4 * slack), axis)) return answer;
+  answer.hit = answer.hit || detail::holds(a, b, near.to_b, o, answer);
+  if (answer.hit || !o.adaptive_k || detail::hulls_apart(a, b, near.to_b, T(4 * slack), axis))
+    return answer;
   detail::oppose<Last>(a, b, near, o, w, answer);
   return answer;
 }

@@ -126,10 +126,17 @@ void nearest_centres(const Mesh<T>& m, const Vec3<T>& point, int k, Workspace<T>
 template <class T>
 void nearest_triangles(const Mesh<T>& m, const Vec3<T>& p, int k, T reach, Workspace<T>& w, Counts& counts) {
   T limit = std::numeric_limits<T>::infinity();
+  const T unit = unit_for(std::fmax(m.extent, largest(p))), back = 1 / unit;
+  const Vec3<T> at = p * unit;
+  const auto squared = [&](int face) {
+    const Triangle<T> t = m.triangle(face);
+    const T d = squared_distance(at, {t.a * unit, t.b * unit, t.c * unit});
+    return d * back * back;
+  };
   if (k <= block_faces && k <= m.size()) {
     nearest_centres(m, p, k, w, w.candidates, counts);
     T farthest = 0;
-    for (const auto& c : w.candidates) farthest = std::fmax(farthest, squared_distance(p, m.triangle(c.face)));
+    for (const auto& c : w.candidates) farthest = std::fmax(farthest, squared(c.face));
     limit = std::fmax(std::sqrt(farthest), reach) + 4 * rounding<T> * (m.extent + length(p));
   }
   w.candidates.clear();
@@ -137,7 +144,7 @@ void nearest_triangles(const Mesh<T>& m, const Vec3<T>& p, int k, T reach, Works
     const Vec3<T> d = m.centres[std::size_t(f)] - p;
     const T far = limit + m.face_radius[std::size_t(f)];
     if (dot(d, d) > far * far) continue;
-    w.candidates.push_back({squared_distance(p, m.triangle(f)), f});
+    w.candidates.push_back({squared(f), f});
   }
   counts.evaluated += std::int64_t(w.candidates.size());
 }
@@ -218,6 +225,14 @@ void select(const Mesh<T>& m, const Vec3<T>* points, int n_points, const Options
   }
   if (n_points > 1 || o.adaptive_k) std::sort(s.near.begin(), s.near.end());
   detail::bound(m, s);
+}
+
+// Gathered corners stay where they are, in another unit of length.
+template <class T>
+void measure_in(T unit, Selection<T>& s) {
+  if (unit == 1) return;
+  const T rows[9] = {unit, 0, 0, 0, unit, 0, 0, 0, unit}, shift[3] = {};
+  kernels<T>.transform(s.x.data(), s.y.data(), s.z.data(), 3 * s.padded(), rows, shift);
 }
 
 // Moves the gathered corners to B's frame.

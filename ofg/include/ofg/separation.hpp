@@ -78,7 +78,7 @@ struct Simplex {
     for (const auto& s : side) {
       const Vec3<T> m = cross(whole.p[s[1]] - whole.p[s[0]], whole.p[s[2]] - whole.p[s[0]]);
       const T origin = -dot(m, whole.p[s[0]]), fourth = dot(m, whole.p[s[3]] - whole.p[s[0]]);
-      if (origin * fourth > 0) continue;
+      if ((origin > 0 && fourth > 0) || (origin < 0 && fourth < 0)) continue;
       Simplex f;
       f.n = 3, f.p[0] = whole.p[s[0]], f.p[1] = whole.p[s[1]], f.p[2] = whole.p[s[2]];
       const Vec3<T> v = f.nearest();

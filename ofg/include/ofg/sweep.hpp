@@ -1,27 +1,11 @@
 // OFG over one step: do two moving meshes meet, and when? Translational and rotational sweep are one algorithm, on the motion
 // of A as seen from B; its virtual edges are exact for translations and chords of the true paths for turns.
 #pragma once
-#include "overlap.hpp"
+#include "features.hpp"
 #include "stray.hpp"
 
 namespace ofg {
 namespace detail {
-
-// A part of the step, with the poses of A in B's frame at its ends.
-template <class T>
-struct Window {
-  double t0, t1;
-  Transform<double> start, end;
-  double at(double share) const { return t0 + (t1 - t0) * share; }
-};
-
-// Bound on all coordinates that are tested in a window, in B's frame, and on the lengths that its
-// poses were rounded by.
-template <class T>
-T scale_of(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& w) {
-  const T ends = std::fmax(scale_of(a, b, Vec3<T>(w.start.p)), scale_of(a, b, Vec3<T>(w.end.p)));
-  return std::fmax(ends, T(track.arms()));
-}
 
 // Step 1 over a window: spheres swept along the chord between the centres, grown by what the true path strays from it.
 template <class T>
@@ -35,168 +19,27 @@ bool swept_spheres_apart(const Mesh<T>& a, const Mesh<T>& b, const Track& track,
   return spheres_apart(from + step * at, double(a.radius) + double(b.radius) + stray + slack);
 }
 
-// What met what, for the time of impact: a vertex and a face, or two edges.
-struct Contact {
-  Found found = Found::nothing;
-  double share = 2;  // of the window
-  int moving = -1, fixed = -1;
-  int face_a = -1, face_b = -1;
-};
-
-// Virtual edges: the chords of the selected vertices of `m`, from `start` to `end`, against the other's selected faces, all in
-// the frame of the other. Stops at the first hit, or finds the earliest.
-template <class T>
-bool virtual_edges_meet(const Mesh<T>& m, const Selection<T>& s, const Transform<T>& start, const Transform<T>& end,
-                        const Selection<T>& other, T scale, bool swapped, bool earliest, Workspace<T>& w, Contact& contact,
-                        Counts& counts) {
-  bool hit = false;
-  const TriangleView<T> faces = other.view();
-  for (std::size_t i = 0; i < s.vertices.size(); ++i) {
-    const Vec3<T> v = m.vertices[std::size_t(s.vertices[i])], p = start(v), q = end(v);
-    const T segment[6] = {p.x, p.y, p.z, q.x, q.y, q.z};
-    kernels<T>.segments_miss(faces, other.padded(), segment, rounding<T> * scale, w.flags.data());
-    for (int j = 0; j < other.size(); ++j) {
-      ++counts.edge_faces;
-      if (w.flags[std::size_t(j)]) continue;
-      const T share = segment_meets(p, q, other.triangle(j), scale);
-      if (share < 0 || !(share < contact.share)) continue;
-      const int own = s.vertex_face[i], its = other.near[std::size_t(j)].face;
-      contact = {swapped ? Found::face_edge : Found::edge_face,
-                 double(share),
-                 s.vertices[i],
-                 its,
-                 swapped ? its : own,
-                 swapped ? own : its};
-      hit = true;
-      if (!earliest) return true;
-    }
-  }
-  return hit;
-}
-
-// Boxes of B's selected edges, for the rejection of most pairs of edges.
-template <class T>
-BoxView<T> edge_boxes(const Mesh<T>& m, const Selection<T>& s, Workspace<T>& w) {
-  const std::size_t n = s.edges.size(), padded = (n + lanes<T> - 1) / lanes<T> * lanes<T>;
-  for (std::size_t i = 0; i < padded; ++i) {
-    const auto& e = m.edges[std::size_t(s.edges[i < n ? i : 0])];
-    const Vec3<T> p = m.vertices[std::size_t(e[0])], q = m.vertices[std::size_t(e[1])];
-    w.box[0][i] = std::fmin(p.x, q.x), w.box[1][i] = std::fmin(p.y, q.y), w.box[2][i] = std::fmin(p.z, q.z);
-    w.box[3][i] = std::fmax(p.x, q.x), w.box[4][i] = std::fmax(p.y, q.y), w.box[5][i] = std::fmax(p.z, q.z);
-  }
-  return {{w.box[0].data(), w.box[1].data(), w.box[2].data()}, {w.box[3].data(), w.box[4].data(), w.box[5].data()}};
-}
-
-template <class T>
-bool moving_edges_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& start, const Transform<T>& end, T scale,
-                       bool earliest, Workspace<T>& w, Contact& contact, Counts& counts) {
-  bool hit = false;
-  const BoxView<T> boxes = edge_boxes(b, w.b, w);
-  const int padded = int((w.b.edges.size() + lanes<T> - 1) / lanes<T> * lanes<T>);
-  const T slack = rounding<T> * scale;
-  for (std::size_t i = 0; i < w.a.edges.size(); ++i) {
-    const auto& e = a.edges[std::size_t(w.a.edges[i])];
-    const Vec3<T> p = start(a.vertices[std::size_t(e[0])]), q = start(a.vertices[std::size_t(e[1])]);
-    const Vec3<T> r = end(a.vertices[std::size_t(e[0])]), s = end(a.vertices[std::size_t(e[1])]);
-    const auto low = [](T k, T l, T m, T n) { return std::fmin(std::fmin(k, l), std::fmin(m, n)); };
-    const T box[6] = {low(p.x, q.x, r.x, s.x),      low(p.y, q.y, r.y, s.y),      low(p.z, q.z, r.z, s.z),
-                      -low(-p.x, -q.x, -r.x, -s.x), -low(-p.y, -q.y, -r.y, -s.y), -low(-p.z, -q.z, -r.z, -s.z)};
-    kernels<T>.boxes_apart(boxes, padded, box, slack, w.flags.data());
-    for (std::size_t j = 0; j < w.b.edges.size(); ++j) {
-      ++counts.edge_pairs;
-      if (w.flags[j]) continue;
-      const auto& f = b.edges[std::size_t(w.b.edges[j])];
-      const T share = edges_cross(p, q, r - p, s - q, b.vertices[std::size_t(f[0])], b.vertices[std::size_t(f[1])], scale);
-      if (share < 0 || !(share < contact.share)) continue;
-      contact = {Found::edge_edge, double(share), w.a.edges[i], w.b.edges[j], w.a.edge_face[i], w.b.edge_face[j]};
-      hit = true;
-      if (!earliest) return true;
-    }
-  }
-  return hit;
-}
-
-// Signed measure that vanishes when the features of the contact meet: a vertex in the plane of a face, two edges in one plane.
-template <class T>
-double measure(const Mesh<T>& a, const Mesh<T>& b, const Contact& c, const Transform<double>& a_to_b) {
-  const auto vertex = [](const Mesh<T>& m, int v) { return Vec3<double>(m.vertices[v]); };
-  if (c.found == Found::edge_edge) {
-    const auto& e = a.edges[c.moving];
-    const auto& f = b.edges[c.fixed];
-    const Vec3<double> p = a_to_b(vertex(a, e[0])), q = a_to_b(vertex(a, e[1])), s = vertex(b, f[0]);
-    return triple(q - p, vertex(b, f[1]) - s, p - s);
-  }
-  const bool swapped = c.found == Found::face_edge;
-  const Mesh<T>&moved = swapped ? b : a, &still = swapped ? a : b;
-  const auto& f = still.faces[c.fixed];
-  const Vec3<double> o = vertex(still, f[0]), n = cross(vertex(still, f[1]) - o, vertex(still, f[2]) - o),
-                     v = vertex(moved, c.moving);
-  return dot(n, (swapped ? a_to_b.inverse()(v) : a_to_b(v)) - o);
-}
-
-// The velocity estimate, put on the real motion: the time in the window at which the features that met on the chords meet on
-// their true paths. Regula falsi in the Illinois form, which keeps a bracket; the chord's own time where there is none (two
-// edges that pass one another and come back).
-template <class T>
-double velocity_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& w, const Contact& c) {
-  const double guess = w.at(c.share);
-  if (!track.turns()) return guess;
-  const auto f = [&](double t) { return measure(a, b, c, track.at(t)); };
-  double lo = w.t0, hi = w.t1, flo = f(lo), fhi = f(hi);
-  if (flo == 0) return lo;
-  if ((flo > 0) == (fhi > 0)) return guess;
-  double t = guess;
-  int side = 0;
-  for (int i = 0; i < 60 && hi - lo > 4e-16 * hi; ++i) {
-    const double ft = f(t);
-    if (ft == 0) return t;
-    if ((ft > 0) == (flo > 0)) {
-      lo = t, flo = ft;
-      if (side == 1) fhi /= 2;
-      side = 1;
-    } else {
-      hi = t, fhi = ft;
-      if (side == 2) flo /= 2;
-      side = 2;
-    }
-    const double next = (flo * hi - fhi * lo) / (flo - fhi);
-    if (next == t) break;
-    t = next > lo && next < hi ? next : (lo + hi) / 2;
-  }
-  return t;
-}
-
-// Step 4 (and its repairs) over a window, on the selections made. Leaves B's selection gathered, and A's not.
-template <class T>
-bool features_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& start, const Transform<double>& end,
-                   const Options& o, T scale, Workspace<T>& w, Contact& contact, Counts& counts) {
-  const Transform<T> s(start), e(end);
-  bool hit = virtual_edges_meet(a, w.a, s, e, w.b, scale, false, o.earliest, w, contact, counts);
-  if (hit && !o.earliest) return true;
-  if (o.both_vertices) {
-    gather(a, w.a);
-    hit |= virtual_edges_meet(b, w.b, s.inverse(), e.inverse(), w.a, scale, true, o.earliest, w, contact, counts);
-    if (hit && !o.earliest) return true;
-  }
-  if (o.edge_edge) hit |= moving_edges_meet(a, b, s, e, scale, o.earliest, w, contact, counts);
-  return hit;
-}
-
 template <class T>
 bool surfaces_meet(const Mesh<T>& a, const Transform<double>& pose, Workspace<T>& w, T scale, Answer& answer) {
   const Transform<T> to_b(pose);
+  const T unit = unit_for(scale);
   gather(a, w.a);
-  move(to_b, w.a);
-  return faces_meet(w.a, w.b, scale, to_b(w.a.centre) - w.b.centre, Screened::unknown, w, answer);
+  move(to_b.in_units(unit), w.a);
+  return faces_meet(w.a, w.b, scale * unit, (to_b(w.a.centre) - w.b.centre) * unit,
+                    Screened::unknown, w, answer);
 }
 
 // One plane between B's selection and A's at both ends keeps all chords away: none of the tests of the window can hit.
 template <class T>
-bool chords_apart(const Mesh<T>& a, const Window<T>& window, T gap, Workspace<T>& w) {
-  for (int i = 0; i < 2; ++i) gather(a, w.a, i), move(Transform<T>(i ? window.end : window.start), w.a, i);
+bool chords_apart(const Mesh<T>& a, const Window<T>& window, T gap, T unit, Workspace<T>& w) {
+  for (int i = 0; i < 2; ++i) {
+    gather(a, w.a, i);
+    move(Transform<T>(i ? window.end : window.start).in_units(unit), w.a, i);
+  }
   Vec3<T> axis = w.a.triangle(0).a - w.b.triangle(0).a;
   const CloudView<T> cloud_a = w.a.cloud(2), cloud_b = w.b.cloud();
-  return separated(axis, gap, [&](const Vec3<T>& v) { return support(cloud_a, cloud_b, v); });
+  return separated(axis, gap * unit,
+                   [&](const Vec3<T>& v) { return support(cloud_a, cloud_b, v); });
 }
 
 // Halves the window, testing the first half each time, with all tests of the sweep.
@@ -228,7 +71,7 @@ template <class T>
 void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, const Options& o,
                 Workspace<T>& w, Counts& counts) {
   double times[3] = {window.t0, window.t1, window.t1};
-  const int n = o.selections < 3 ? o.selections : 3;
+  const int n = o.selection_times < 3 ? o.selection_times : 3;
   double gap = n == 1 ? window.t1 - window.t0 : (window.t1 - window.t0) / 2;  // farthest any time is from one of `times`
   const Vec3<double> ca(a.centre), cb(b.centre);
   if (n == 3) {
@@ -261,15 +104,16 @@ void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Wi
 template <class T>
 bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Window<T>& window, T gap, Vec3<T>& axis) {
   const Transform<T> start(window.start), end(window.end);
+  const T unit = unit_for(std::fmax(scale_of(a, b, start.p), scale_of(a, b, end.p)));
   const Mat3<T> back = start.r.transposed(), back_end = end.r.transposed();
   const CloudView<T> hull_a = a.cloud.view(), hull_b = b.cloud.view();
   static constexpr T zeros[lanes<T>] = {};
   const CloudView<T> origin{zeros, zeros, zeros, lanes<T>};
   const auto least = [&](const Vec3<T>& v) {
     const Vec3<T> p = start(support(hull_a, origin, back * v)), q = end(support(hull_a, origin, back_end * v));
-    return (dot(v, p) < dot(v, q) ? p : q) + support(origin, hull_b, v);
+    return ((dot(v, p) < dot(v, q) ? p : q) + support(origin, hull_b, v)) * unit;
   };
-  return separated(axis, gap, least, 16);
+  return separated(axis, gap * unit, least, 16);
 }
 
 // The virtual edges and the end of one window, on selections of its own; the start too where nothing was tested before it.
@@ -278,7 +122,9 @@ bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const 
                   Workspace<T>& w, Answer& answer) {
   Counts& counts = answer.counts;
   const T scale = scale_of(a, b, track, window);
+  const T unit = unit_for(scale);
   select_for(a, b, track, window, o, w, counts);
+  measure_in(unit, w.b);
   list_vertices(a, w, w.a);
   if (o.both_vertices) list_vertices(b, w, w.b);
   if (o.edge_edge) list_edges(a, w, w.a), list_edges(b, w, w.b);
@@ -287,7 +133,7 @@ bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const 
   const double h = window.t1 - window.t0;
   const T room = 4 * rounding<T> * scale +
                  (o.both_vertices ? T(stray(a, track, h) + stray_of_b(a, b, track, h)) : T(0));
-  if (chords_apart(a, window, room, w)) {
+  if (chords_apart(a, window, room, unit, w)) {
     counts.face_pairs += std::int64_t(1 + first) * w.a.size() * w.b.size();
     counts.edge_faces += std::int64_t(w.a.vertices.size()) * w.b.size();
     if (o.both_vertices) counts.edge_faces += std::int64_t(w.b.vertices.size()) * w.a.size();
@@ -310,8 +156,23 @@ bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const 
   }
   if (!o.earliest && at_start()) return true;
   if (!surfaces_meet(a, window.end, w, scale, answer)) return false;
-  answer.found = Found::end;
+  answer.found = window.t1 < 1 ? Found::within : Found::end;
   if (o.earliest) answer.time = window.t1;
+  return true;
+}
+
+// Does a body hold a point of the other at one pose? Then the faces are named that meet there, if
+// any of the k nearest do: `crossing`.
+template <class T>
+bool overlaps_at(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& pose, Found crossing,
+                 double slack, const Options& o, Workspace<T>& w, Answer& answer) {
+  const Near<T> near{Transform<T>(pose), Transform<T>(pose.inverse()), slack, Screened::unknown};
+  if (!holds(a, b, near.to_b, o, answer)) return false;
+  Answer faces;
+  oppose_once<8>(a, b, near, o, w, faces);
+  answer.counts.add(faces.counts);
+  if (faces.hit)
+    answer.found = crossing, answer.face_a = faces.face_a, answer.face_b = faces.face_b;
   return true;
 }
 
@@ -372,14 +233,15 @@ Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Optio
   const double room = 4 * (slack(window.start) + slack(window.end));
   const bool screens = (o.screen || o.adaptive_k) && !track.turns();
   if (screens && detail::screened_apart(a, b, window.start, window.end.p - window.start.p, room)) return answer;
-  if (detail::holds(a, b, Transform<T>(window.start), o, answer)) {
+  if (detail::overlaps_at(a, b, window.start, Found::start, slack(window.start), o, w, answer)) {
     answer.hit = true, answer.time = 0;
     return answer;
   }
   const double tolerance = o.arc_tolerance > 0 ? o.arc_tolerance * a.radius : std::numeric_limits<double>::infinity();
   detail::Sweep<T> parts{a, b, track, o, w, answer, tolerance, Vec3<T>(window.start(ca) - cb)};
   answer.hit = parts.meet(window, true, 0);
-  if (!answer.hit && detail::holds(a, b, Transform<T>(window.end), o, answer)) {
+  if (!answer.hit &&
+      detail::overlaps_at(a, b, window.end, Found::end, slack(window.end), o, w, answer)) {
     answer.hit = true;
     if (o.earliest) answer.time = 1;
   }

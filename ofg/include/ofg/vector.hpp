@@ -1,6 +1,9 @@
 // Three-component vectors and 3 x 3 matrices, and nothing more than the algorithm needs.
 #pragma once
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <type_traits>
 
 namespace ofg {
 
@@ -42,6 +45,26 @@ template <class T>
 constexpr T largest(const Vec3<T>& a) {
   const T x = a.x < 0 ? -a.x : a.x, y = a.y < 0 ? -a.y : a.y, z = a.z < 0 ? -a.z : a.z;
   return x > y ? (x > z ? x : z) : (y > z ? y : z);
+}
+
+// 2^-e for a positive number in [2^e, 2^(e+1)): its product with a number is exact, and with this
+// one lies in [1, 2).
+template <class T>
+constexpr T unit_of(T x) {
+  using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
+  constexpr int mantissa = sizeof(T) == 8 ? 52 : 23;
+  constexpr Bits twice_bias = sizeof(T) == 8 ? 2046 : 254;
+  const Bits exponent = std::bit_cast<Bits>(x) >> mantissa;
+  return std::bit_cast<T>((twice_bias - exponent) << mantissa);
+}
+
+// The unit of length for tests of coordinates up to `scale`. They multiply up to eight lengths with
+// one another, which leaves the range of numbers at sizes that people use: in float from 2^15 on.
+// In double, ordinary lengths stay as they are.
+template <class T>
+constexpr T unit_for(T scale) {
+  if (sizeof(T) == 8 && scale > T(1e-6) && scale < T(1e6)) return 1;
+  return unit_of(scale);
 }
 
 template <class T>

@@ -8,7 +8,8 @@ import ofg
 from experiments.report import selection
 from experiments.rows import cases_of
 from ofg import _core
-from ofg.algorithm import BRUTE_FORCE, _row
+from ofg.algorithm import BRUTE_FORCE
+from ofg.arrays import row
 from ofg.options import core_options
 
 OPTIONS = [
@@ -16,10 +17,10 @@ OPTIONS = [
     {"k": 8},
     {"k": 16},
     {"k": 8, "broad": "start"},
-    {"k": 4, "selection": "point-triangle"},
+    {"k": 4, "nearest": "point-triangle"},
     {"k": 4, "adaptive_k": True},
-    {"k": 4, "selections": 2},
-    {"k": 4, "selections": 3},
+    {"k": 4, "selection_times": 2},
+    {"k": 4, "selection_times": 3},
     {"k": 8, "concave": "undivided"},
 ]
 
@@ -38,7 +39,7 @@ def test_all_pairs_of_the_selected_faces_give_the_answer_of_ofg(run, options):
     for case, truth in cases_of(run.read("cases.parquet"), run.read("bodies.parquet")):
         q = case.query
         made = selection.trace(q, options, truth.t_hi)
-        motions = [_row(x)[None] for x in (q.pose_a, q.pose_b, q.motion, ofg.Motion())]
+        motions = [row(x)[None] for x in (q.pose_a, q.pose_b, q.motion, ofg.Motion())]
         found = _core.ask_many(
             alone(q.a, made["a"]), alone(q.b, made["b"]), *motions, core_options(), BRUTE_FORCE, q.question != "overlap", False, 1
         )[0][0]

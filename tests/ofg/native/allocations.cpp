@@ -23,7 +23,8 @@ long count() {
   ofg::Workspace<T> w;
   w.reserve(a, b);
   ofg::Options repaired;
-  repaired.nearest = ofg::Nearest::triangle, repaired.selections = 3, repaired.arc_tolerance = 1e-3;
+  repaired.nearest = ofg::Nearest::triangle, repaired.selection_times = 3,
+  repaired.arc_tolerance = 1e-3;
   repaired.adaptive_k = repaired.both_vertices = repaired.edge_edge = repaired.containment = repaired.earliest = true;
   const long before = allocations;
   for (int i = 0; i < 200; ++i)

@@ -85,7 +85,7 @@ static Asked query(Random& r, double scale) {
   }
   x.o.k = whole(r, 0, 4) ? whole(r, 1, 20) : 1000000;
   x.o.toi = ofg::Toi(whole(r, 0, 2)), x.o.broad = ofg::Broad(whole(r, 0, 1)), x.o.concave = ofg::Concave(whole(r, 0, 2));
-  x.o.nearest = ofg::Nearest(whole(r, 0, 1)), x.o.selections = whole(r, 1, 3);
+  x.o.nearest = ofg::Nearest(whole(r, 0, 1)), x.o.selection_times = whole(r, 1, 3);
   x.o.adaptive_k = whole(r, 0, 2) == 0, x.o.both_vertices = whole(r, 0, 1), x.o.edge_edge = whole(r, 0, 1);
   x.o.containment = whole(r, 0, 2) == 0, x.o.earliest = whole(r, 0, 1),
   x.o.arc_tolerance = whole(r, 0, 1) ? 0 : std::pow(10, uniform(r, -5, -1));

@@ -224,6 +224,22 @@ OFG_INLINE void narrow(Lane<double>::V v, float* to) {
   __builtin_memcpy(to, &h, sizeof h);
 }
 
+// Four numbers a lane, in units of the power of two of the largest of them: see unit_of.
+OFG_INLINE void in_units_of_largest(Lane<double>::V* q) {
+  typedef Lane<double>::V V;
+  V most = {};
+  for (int j = 0; j < 4; ++j) {
+    const V size = q[j] < 0.0 ? -q[j] : q[j];
+    most = size > most ? size : most;
+  }
+  Lane<double>::I bits;
+  __builtin_memcpy(&bits, &most, sizeof bits);
+  bits = (2046 - (bits >> 52)) << 52;
+  V unit;
+  __builtin_memcpy(&unit, &bits, sizeof unit);
+  for (int j = 0; j < 4; ++j) q[j] *= unit;
+}
+
 OFG_INLINE void rotation_of(const Lane<double>::V* q, Lane<double>::V* m) {
   const auto s = 2.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   const auto x = s * q[1], y = s * q[2], z = s * q[3];
@@ -248,6 +264,7 @@ static void pose_pairs(const PairOfBodies& bodies, const double* poses_a, const 
   for (int i = 0; i < padded; i += w) {
     V p[4], q[4], r[4];
     for (int j = 0; j < 4; ++j) p[j] = load(rows[j] + i), q[j] = load(rows[7 + j] + i);
+    in_units_of_largest(p), in_units_of_largest(q);
     // conj(q) p: from A's frame to B's
     r[0] = q[0] * p[0] + q[1] * p[1] + q[2] * p[2] + q[3] * p[3];
     r[1] = q[0] * p[1] - q[1] * p[0] - q[2] * p[3] + q[3] * p[2];
