@@ -95,7 +95,9 @@ def body(kind: str, half: float = 1.0) -> Body:
 def bar(kind: str) -> Body:
     """A bar of length 6 along x."""
     made = box(3, 0.4, 0.4, name="bar")
-    return Body.mesh(made.vertices, made.faces) if kind == "mesh" else Body.union([made]) if kind == "union" else made
+    if kind == "mesh":
+        return Body.mesh(made.vertices, made.faces)
+    return Body.union([made]) if kind == "union" else made
 
 
 def hooked(kind: str) -> Body:
@@ -218,7 +220,8 @@ def head_on(method: Method) -> Iterator[str]:
         verdict = asked(method, sweep(question, kind, (-5, side, side / 2), (far, 0, 0)))
         exact = 3 / far
         fault = _time_fault(method, verdict, exact) if verdict.hit else "missed"
-        if fault and not (_blind(method, 0.4) and not verdict.hit):  # looks at the end alone: may pass through
+        # who looks at the end alone may pass through
+        if fault and not (_blind(method, 0.4) and not verdict.hit):
             yield f"{question}, {kind}, offset {side}, meets at {exact:g}: {fault}"
 
 
@@ -288,7 +291,8 @@ def turns(method: Method) -> Iterator[str]:
         return
     for kind in kinds(method):
         for angle, hit in ((math.radians(170), True), (0.0, False)):
-            verdict = asked(method, Query("motion", bar(kind), body(kind, 0.4), Pose(), Pose(position=(0, 2, 0)), Motion((0, 0, 0.01), (0, 0, 1), angle)))
+            at, motion = Pose(position=(0, 2, 0)), Motion((0, 0, 0.01), (0, 0, 1), angle)
+            verdict = asked(method, Query("motion", bar(kind), body(kind, 0.4), Pose(), at, motion))
             if verdict.hit != hit and not _blind(method, 0.1):
                 yield f"{kind}: a bar turning by {math.degrees(angle):.0f} degrees {'into' if hit else 'beside'} a cube: {_word(verdict)}"
 
@@ -314,7 +318,8 @@ def b_turns(method: Method) -> Iterator[str]:
         for angle, hit in ((math.pi / 3, True), (0.0, False)):
             motions = Motion(angle=spin), Motion((0, 0, 0.01), angle=angle)
             query = Query("motion", body(kind, 0.4), bar(kind), at, Pose(), *motions)
-            yield from _turn_fault(method, f"{kind}, A turns by {spin:g}, B by {angle:g}", query, hit)
+            what = f"{kind}, A turns by {spin:g}, B by {angle:g}"
+            yield from _turn_fault(method, what, query, hit)
 
 
 def turn_together(method: Method) -> Iterator[str]:
@@ -328,12 +333,13 @@ def turn_together(method: Method) -> Iterator[str]:
 
 
 def about_a_point(method: Method) -> Iterator[str]:
-    """A bar turns about a point ten lengths off, which carries it through a cube; and about its centre."""
+    """A bar turns about a point ten lengths off, which takes it through a cube; and about its centre."""
     for kind, (about, hit) in itertools.product(_turned_kinds(method), ((-10, True), (0, False))):
         motion = Motion(angle=0.3, about=(about, 0, 0))
-        query = Query("motion", bar(kind), body(kind, 0.4), Pose(), Pose(position=(0.5, 1.5, 0)), motion)
-        yield from _turn_fault(method, f"{kind}, A turns about ({about}, 0, 0)", query, hit)
-        yield from _turn_fault(method, f"{kind}, B turns about ({about}, 0, 0)", query.swapped(), hit)
+        at, where = Pose(position=(0.5, 1.5, 0)), f"turns about ({about}, 0, 0)"
+        query = Query("motion", bar(kind), body(kind, 0.4), Pose(), at, motion)
+        yield from _turn_fault(method, f"{kind}, A {where}", query, hit)
+        yield from _turn_fault(method, f"{kind}, B {where}", query.swapped(), hit)
 
 
 def _turn_fault(method: Method, what: str, query: Query, hit: bool) -> Iterator[str]:

@@ -38,9 +38,9 @@ class Method(ABC):
     questions: ClassVar[frozenset[str]]  #: subset of ofg.QUESTIONS
     bodies: ClassVar[frozenset[str]]  #: subset of {"convex", "union", "mesh"}
     solid: ClassVar[bool]  #: False: tests surfaces, so a contained body is not seen
-    #: 1: `prepare` gets queries in which A alone moves (see frames.one_mover). 2: it reads motion_b too
+    #: 1: `prepare` gets queries in which A alone moves (frames.one_mover). 2: it reads motion_b too
     movers: ClassVar[int] = 1
-    #: True: it reads Motion.about. False: a body that turns about a point is given with that point as its origin
+    #: True: it reads Motion.about. False: a body that turns about a point gets that point as its origin
     about: ClassVar[bool] = False
     gives_time: ClassVar[bool] = False  #: returns a time of impact for sweeps
     margin: ClassVar[float] = 0.0  #: documented distance (length) below which a clear pair may be called a hit

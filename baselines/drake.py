@@ -46,11 +46,12 @@ class Drake(Discrete):
         source = graph.RegisterSource("ofg")
         frame = graph.RegisterFrame(source, geometry.GeometryFrame("a"))
         ids_a = [graph.RegisterGeometry(source, frame, g) for g in _geometries(pydrake, query.a, "a", transform())]
-        frames = [frame] if query.motion_b.rests else [frame, graph.RegisterFrame(source, geometry.GeometryFrame("b"))]
+        frames = [frame]
         if query.motion_b.rests:
             geometries_b = _geometries(pydrake, query.b, "b", transform(query.pose_b.matrix))
             ids_b = [graph.RegisterAnchoredGeometry(source, g) for g in geometries_b]
         else:
+            frames.append(graph.RegisterFrame(source, geometry.GeometryFrame("b")))
             geometries_b = _geometries(pydrake, query.b, "b", transform())
             ids_b = [graph.RegisterGeometry(source, frames[1], g) for g in geometries_b]
         for identity in ids_a + ids_b:

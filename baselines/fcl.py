@@ -28,7 +28,7 @@ from .sampling import Discrete, Substeps
 from .units import Normalised
 
 #: Bytes of FCL 0.7's InterpMotion, the object of CCDM_LINEAR: of all sizes from 24 to 2024, only stale blocks of this one change answers.
-#: valgrind names no other memory that conservative advancement reads unset, neither on the heap nor on the stack.
+#: valgrind names no other memory that conservative advancement reads unset, on the heap or the stack.
 MOTION_BYTES = 504
 
 
@@ -161,8 +161,8 @@ class FclMeshSubsteps(Substeps, FclMesh):
 class _Continuous(Method):
     """fcl.continuousCollide from pose to pose. Subclasses mix in `shapes` and choose the modes.
 
-    FCL is told two poses of each body and takes the shortest turn between them, about the body's origin, so a motion of
-    more than 3 rad is asked in legs.
+    FCL is told two poses of each body and takes the shortest turn between them, about the body's
+    origin, so a motion of more than 3 rad is asked in legs.
     """
 
     gives_time = True
@@ -247,7 +247,8 @@ class _Advancement(_Continuous):
     """Conservative advancement at its best: CCDM_TRANS for translations, CCDM_LINEAR for motions, 1000 iterations.
 
     Of 497 certified sweeps (nine families) 26 missed and 11 false hits on hulls; neither units nor toi_err change that.
-    Its times hang on the last bit of a pose: a quaternion that ends 1e-16 elsewhere moved one by 6e-7 of the step.
+    Its times hang on the last bit of a pose: a quaternion that ends 1e-16 elsewhere moved one by
+    6e-7 of the step.
     """
 
     configuration = "best effort"

@@ -13,7 +13,9 @@ from .errors import Unsupported
 
 
 def stated(query: Query, movers: int, about: bool) -> Query:
-    """The question as a method knows it. movers: bodies that it can move. about: turns about any point.
+    """The question as a method knows it.
+
+    movers: bodies that it can move. about: it can turn them about any point.
 
     The query itself where it is so already. Unsupported where both bodies turn and movers is 1.
     """

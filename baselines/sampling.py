@@ -19,8 +19,8 @@ class Discrete(Method):
     """An engine that answers `overlap` at one pose. Subclasses write `build`."""
 
     questions = frozenset({"overlap"})
-    #: whether `place` takes B's pose as its second argument; it gets it where B moves. If not, B stays at
-    #: query.pose_b, and A is placed as B would see it
+    #: whether `place` takes B's pose as its second argument; it gets it where B moves. If not, B stays
+    #: at query.pose_b, and A is placed as B would see it
     places_b: ClassVar[bool] = False
 
     @abstractmethod

@@ -28,7 +28,10 @@ class Normalised:
 
 
 def normalised(query: Query, length: float) -> Query:
-    """The same question in other units, with B at the origin at the start. Times of impact are as they were."""
+    """The same question in other units, with B at the origin at the start.
+
+    Times of impact are as they were.
+    """
     unit = 2.0 ** round(math.log2(length / min(query.a.radius, query.b.radius)))
     offset = query.pose_a.position - query.pose_b.position
     pose_a, pose_b = Pose(query.pose_a.quaternion, unit * offset), Pose(query.pose_b.quaternion)

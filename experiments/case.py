@@ -12,7 +12,7 @@ from ofg import Query
 class Case:
     """id: "thin_wall/100/0007": scenario, level of difficulty, index. level: the value on the scenario's difficulty axis.
     tags: what else a table may be split by ({"feature": "edge-edge"}); strings or numbers.
-    precision: "float32" where every number of the query is a float32 number by the scenario's word, else "float64"."""
+    precision: "float32" where the scenario declares that every number is a float32 number, else "float64"."""
 
     id: str
     scenario: str

@@ -36,10 +36,13 @@ def list_(methods: Methods = None, scenarios_: Scenarios = None) -> None:
     """Show scenarios, methods (what each can answer, and whether its engine is installed), experiments and presets."""
     _extend(methods, scenarios_)
     _print_grid("Scenarios", ("name", "question", "precision", "difficulty", "levels", "exposes"),
-                [(s.name, s.question, s.precision, s.axis, _levels(s.levels), s.exposes) for s in scenarios.scenarios().values()])
-    _print_grid("Methods", ("name", "configuration", "questions", "bodies", "tests", "precision", "parameters", "engine"),
+                [(s.name, s.question, s.precision, s.axis, _levels(s.levels), s.exposes)
+                 for s in scenarios.scenarios().values()])
+    heads = ("name", "configuration", "questions", "bodies", "tests", "precision", "parameters", "engine")
+    _print_grid("Methods", heads,
                 [(m.name, m.configuration, " ".join(q[0] for q in ("overlap", "translation", "motion") if q in m.questions),
-                  ", ".join(sorted(m.bodies)), "solid" if m.solid else "surface", m.precision, " ".join(f"{k}={v}" for k, v in m.parameters.items()),
+                  ", ".join(sorted(m.bodies)), "solid" if m.solid else "surface", m.precision,
+                  " ".join(f"{k}={v}" for k, v in m.parameters.items()),
                   "not installed" if registry.available(m) else m.engine) for m in registry.methods().values()])
     console.print("Questions: [b]o[/b]verlap at one pose pair, [b]t[/b]ranslation, [b]m[/b]otion (turning and translating).")
     console.print()

@@ -16,7 +16,8 @@ SAME_TIME = 1e-9  # of the step: reported times of impact that differ by less ar
 # when AVX was masked); such a case is another question, and its answers are not compared.
 INPUT = ("body_a", "body_b", "quaternion_a", "position_a", "quaternion_b", "position_b", "displacement", "axis", "angle", "about", "displacement_b", "axis_b",
          "angle_b", "about_b")
-REFERENCE = (*INPUT, "precision", "case", "scenario", "level", "question", "size", "faces", "tags", "label", "t_lo", "t_hi", "start", "end", "gap", "touching", "certificate")
+REFERENCE = (*INPUT, "precision", "case", "scenario", "level", "question", "size", "faces", "tags", "label",
+             "t_lo", "t_hi", "start", "end", "gap", "touching", "certificate")
 
 
 @dataclass(frozen=True)
@@ -82,8 +83,10 @@ def _labels(first: Store, second: Store) -> pd.DataFrame:
     sides = [filled(store.read("cases.parquet"))[columns] for store in (first, second)]
     both = sides[0].merge(sides[1], on="case", suffixes=("_a", "_b"))
     moved = both[np.logical_or.reduce([both[f"{c}_a"] != both[f"{c}_b"] for c in columns[1:]])]
-    before, after = (moved[f"label_{s}"] + moved[f"touching_{s}"].map({True: ", touching", False: ""}) for s in "ab")
-    return pd.DataFrame({"case": moved.case, "before": before, "after": after}).reset_index(drop=True)
+    words = {True: ", touching", False: ""}
+    before, after = (moved[f"label_{s}"] + moved[f"touching_{s}"].map(words) for s in "ab")
+    frame = pd.DataFrame({"case": moved.case, "before": before, "after": after})
+    return frame.reset_index(drop=True)
 
 
 def _answers(both: pd.DataFrame) -> pd.DataFrame:
@@ -105,9 +108,11 @@ def _said(row: dict, side: str) -> str:
 def _rates(both: pd.DataFrame) -> pd.DataFrame:
     sides = []
     for s in "ab":
-        columns = {f"{c}_{s}": c for c in ("outcome", "status", "label", "can_tunnel", "tunnelled", "question", "hit")}
+        names = ("outcome", "status", "label", "can_tunnel", "tunnelled", "question", "hit")
+        columns = {f"{c}_{s}": c for c in names}
         sides.append(metrics.rates(both.rename(columns=columns), ["question", "method"]))
-    counts = ["answered", "hits", "misses", "clears", "false_alarms", "conservative", "touching", "tunnelled"]
+    counts = ["answered", "hits", "misses", "clears", "false_alarms", "conservative", "touching",
+              "tunnelled"]
     table = sides[0].merge(sides[1], on=["question", "method"], suffixes=("_before", "_after"))
     moved = (table[[f"{c}_before" for c in counts]].to_numpy() != table[[f"{c}_after" for c in counts]].to_numpy()).any(axis=1)
     return table.loc[moved, ["question", "method", *(f"{c}_{when}" for c in counts for when in ("before", "after"))]].reset_index(drop=True)

@@ -12,15 +12,16 @@ from .rows import filled
 from .store import Store
 from .timing import FLOOR, LOST, PROBE
 
-OUTCOMES = ("right", "miss", "false alarm", "conservative", "touching", "no label", "unsupported", "error", "timeout")
+OUTCOMES = ("right", "miss", "false alarm", "conservative", "touching", "no label", "unsupported",
+            "error", "timeout")
 
 
 def outcomes(store: Store) -> pd.DataFrame:
     """One row per case and method: the observation, the truth, and what came of it.
 
     outcome: "right"; "miss" (certified hit, answered clear); "false alarm" (certified clear, answered hit); "conservative" (a false
-    alarm at a certified clearance within the method's documented margin); "touching" (the closed bodies share a point and no more,
-    where neither answer is wrong: in no rate); "no label" (truth uncertain); or the status where it
+    alarm at a certified clearance within the method's documented margin); "touching" (the closed
+    bodies share a point and no more, where neither answer is wrong: in no rate); "no label" (truth uncertain); or the status where it
     is not ok. tunnelled: a miss of a sweep whose start and end are certified clear. error: signed time of impact error, as a share
     of the step: beyond the certified bracket, positive late, negative early, 0 inside; NaN where there is none.
     """
@@ -37,7 +38,8 @@ def judge(observations: pd.DataFrame, cases: pd.DataFrame) -> pd.DataFrame:
     clear, meets = table.label == "clear", table.label == "hit"
     alarm = answered & clear & hit
     table["outcome"] = np.select(
-        [~answered, table.label == "uncertain", table.touching, meets & ~hit, alarm & (table.gap <= margin), alarm],
+        [~answered, table.label == "uncertain", table.touching, meets & ~hit, alarm & (table.gap <= margin),
+         alarm],
         [table.status, "no label", "touching", "miss", "conservative", "false alarm"], "right")
     sweep = table.question != "overlap"
     table["can_tunnel"] = answered & sweep & meets & (table.start == "clear") & (table.end == "clear")
@@ -83,10 +85,11 @@ def rates(table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
     Rates are over the certified cases that the method answered; *_low, *_high are Wilson intervals.
     """
     labelled = table.outcome.isin(["right", "miss", "false alarm", "conservative"])
+    touching = table.outcome == "touching"
     flags = pd.DataFrame({
         "asked": 1, "answered": table.status == "ok", "unsupported": table.status == "unsupported",
         "failed": table.status.isin(["error", "timeout"]), "uncertain": table.label == "uncertain",
-        "touching": table.outcome == "touching", "touching_hits": (table.outcome == "touching") & table.hit.fillna(False).astype(bool),
+        "touching": touching, "touching_hits": touching & table.hit.fillna(False).astype(bool),
         "hits": labelled & (table.label == "hit"), "misses": table.outcome == "miss",
         "clears": labelled & (table.label == "clear"), "false_alarms": table.outcome == "false alarm",
         "conservative": table.outcome == "conservative", "can_tunnel": table.can_tunnel, "tunnelled": table.tunnelled,

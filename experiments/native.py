@@ -63,7 +63,8 @@ def python_lane(names: list[str], asked: list[Query], timing: TimingChoice) -> p
     everything = {case.id for case in cases}
     rows = pd.DataFrame(time_bin(Bin(asked[0].question, "", "", cases, {name: everything for name in names}), timing), columns=COLUMNS)
     rows["ns"] = [np.median(rounds) for rounds in rows.rounds_ns]
-    hits = {name: [method.ready(query)().hit for query in asked] for name in names for method in registry.make(name)}
+    hits = {name: [method.ready(query)().hit for query in asked]
+            for name in names for method in registry.make(name)}
     median = rows.groupby(["method", rows.case == FLOOR]).ns.median()
     return pd.DataFrame([{"method": name, "hits": hits[name], "gross": median[name, False], "floor": median[name, True]} for name in names])
 

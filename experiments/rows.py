@@ -14,7 +14,7 @@ from .case import Case
 from .truth.label import Truth
 
 
-MOTION = tuple(f"{name}{side}" for side in ("", "_b") for name in ("displacement", "axis", "angle", "about"))
+MOTION = ("displacement", "axis", "angle", "about", "displacement_b", "axis_b", "angle_b", "about_b")
 
 
 def case_row(case: Case, truth: Truth, attempt: int) -> dict:
@@ -29,7 +29,8 @@ def case_row(case: Case, truth: Truth, attempt: int) -> dict:
         **_motion_row(q.motion, ""), **_motion_row(q.motion_b, "_b"),
         "size": max(q.a.size, q.b.size), "faces": max(len(q.a.faces), len(q.b.faces)), "tags": json.dumps(dict(case.tags), sort_keys=True),
         "label": truth.label, "t_lo": truth.t_lo, "t_hi": truth.t_hi, "start": truth.start, "end": truth.end, "gap": truth.gap,
-        "touching": truth.touching, "reason": truth.reason, "certificate": json.dumps(dict(truth.certificate), sort_keys=True),
+        "touching": truth.touching, "reason": truth.reason,
+        "certificate": json.dumps(dict(truth.certificate), sort_keys=True),
     }
 
 
@@ -77,5 +78,8 @@ def cases_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> Iterable[tuple[Case, 
         query = Query(row.question, made[row.body_a], made[row.body_b], Pose(row.quaternion_a, row.position_a),
                       Pose(row.quaternion_b, row.position_b), Motion(row.displacement, row.axis, row.angle, row.about),
                       Motion(row.displacement_b, row.axis_b, row.angle_b, row.about_b))
-        truth = Truth(row.label, row.t_lo, row.t_hi, row.start, row.end, row.gap, row.reason, json.loads(row.certificate), bool(row.touching))
-        yield Case(row.case, row.scenario, row.level, row.index, query, json.loads(row.tags), row.precision), truth
+        truth = Truth(row.label, row.t_lo, row.t_hi, row.start, row.end, row.gap, row.reason,
+                      json.loads(row.certificate), bool(row.touching))
+        tags = json.loads(row.tags)
+        case = Case(row.case, row.scenario, row.level, row.index, query, tags, row.precision)
+        yield case, truth

@@ -42,9 +42,10 @@ class Scenario:
     name: as in the tables. question: what its cases ask. exposes: one line, what it tells methods apart by.
     axis: what the difficulty is, with its unit. levels: the values it takes, easy to hard.
     generate(rng, level) -> Draft: aims at the difficulty; the label comes from the certificate and never from the aim.
-    precision: "float64": a case is what `generate` drew, number for number; engines that compute or hold bodies in single
-    precision are asked about bodies that they cannot hold, and the tables mark them. "float32": poses, motions and vertices
-    are rounded to float32 first, so that all engines are asked the same.
+    precision: "float64": a case is what `generate` drew, number for number; engines that compute or
+    hold bodies in single precision are asked about bodies that they cannot hold, and the tables mark
+    them. "float32": poses, motions and vertices are rounded to float32 first, so that all engines are
+    asked the same.
     redraw_if: what makes a case useless, so that it is drawn again (at most 50 times, and counted): any of "start-overlap"
     (a sweep that begins inside), "hit", "clear", "uncertain", "touching" (clear, but the surfaces share a point).
     Raises ValueError for another precision, or another word in redraw_if.
@@ -61,13 +62,18 @@ class Scenario:
 
     def __post_init__(self):
         if self.precision not in PRECISIONS:
-            raise ValueError(f"Scenario '{self.name}' has the precision '{self.precision}'; it must be one of {', '.join(PRECISIONS)}.")
+            raise ValueError(f"Scenario '{self.name}' has the precision '{self.precision}'; "
+                             f"it must be one of {', '.join(PRECISIONS)}.")
         wrong = sorted(set(self.redraw_if) - set(USELESS))
         if wrong:
-            raise ValueError(f"Scenario '{self.name}' is drawn again if {', '.join(wrong)}; redraw_if takes {', '.join(USELESS)}.")
+            raise ValueError(f"Scenario '{self.name}' is drawn again if {', '.join(wrong)}; "
+                             f"redraw_if takes {', '.join(USELESS)}.")
 
     def case(self, seed: int, level: float, index: int, attempt: int = 0) -> Case:
-        """The same case for the same arguments, whatever was made before it. ScenarioError where it is none."""
+        """The same case for the same arguments, whatever was made before it.
+
+        ScenarioError where it is none.
+        """
         self.check_level(level)
         key = [seed, zlib.crc32(self.name.encode()), list(self.levels).index(level), index, attempt]
         try:
@@ -86,20 +92,28 @@ class Scenario:
             raise ValueError(f"Scenario '{self.name}' has no level {level:g}. Its axis is {self.axis}; it takes {', '.join(f'{v:g}' for v in self.levels)}.")
 
     def useless(self, truth: Truth) -> bool:
-        tags = {truth.label, "start-overlap" if truth.start == "hit" else "", "touching" if truth.touching else ""}
-        return not tags.isdisjoint(self.redraw_if)
+        found = {truth.label}
+        found |= {"start-overlap"} if truth.start == "hit" else set()
+        found |= {"touching"} if truth.touching else set()
+        return not found.isdisjoint(self.redraw_if)
 
 
 def snap(values) -> np.ndarray:
-    """Nearest float32 as float64: float and double engines then answer the same question. What is too large becomes infinite."""
+    """Nearest float32 as float64: float and double engines then answer the same question.
+
+    What is too large becomes infinite.
+    """
     with np.errstate(over="ignore"):
         return np.float32(values).astype(np.float64)
 
 
 def snap_query(query: Query) -> Query:
-    """Every number of a query snapped. ValueError where a body is none any more, or a number is too large."""
-    return Query(query.question, snap_body(query.a), snap_body(query.b), snap_pose(query.pose_a), snap_pose(query.pose_b),
-                 snap_motion(query.motion), snap_motion(query.motion_b))
+    """Every number of a query snapped.
+
+    ValueError where a body is none any more, or a number is too large.
+    """
+    sides = [snap_body(query.a), snap_body(query.b), snap_pose(query.pose_a), snap_pose(query.pose_b)]
+    return Query(query.question, *sides, snap_motion(query.motion), snap_motion(query.motion_b))
 
 
 def snap_body(body: Body) -> Body:
@@ -117,8 +131,8 @@ def snap_body(body: Body) -> Body:
             return Body.mesh(vertices, body.faces, body.name)
         return Body.convex(vertices, body.name)
     except BodyError as error:
-        raise ValueError(f"rounded to float32, a body is none any more. {error} Draw it larger beside its distance from its "
-                         'frame\'s origin, or declare precision = "float64".') from error
+        raise ValueError(f"rounded to float32, a body is none any more. {error} Draw it larger beside its "
+                         'distance from its frame\'s origin, or declare precision = "float64".') from error
 
 
 def snap_pose(pose: Pose) -> Pose:

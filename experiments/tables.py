@@ -40,7 +40,8 @@ def general(store: Store, found: pd.DataFrame) -> Iterator[Table]:
     makers = [truth_table(store), method_table(store, found), *([leaderboard(found)] if found.question.nunique() > 1 else [])]
     for question in found.question.unique():
         part = found[(found.question == question) & (found.detail != f"does not answer {question}")]
-        makers += [accuracy_table(part, question), touching_table(part, question), scenario_table(part, question)]
+        makers += [accuracy_table(part, question), touching_table(part, question)]
+        makers.append(scenario_table(part, question))
         if question == "overlap":
             makers.append(gap_table(part))
         else:
@@ -181,16 +182,20 @@ def truth_table(store: Store) -> Table:
     for name, group in cases.groupby("scenario", sort=False):
         count = group.label.value_counts()
         rows.append({"scenario": name, "question": group.question.iloc[0], "cases": len(group), "hit": count.get("hit", 0), "clear": count.get("clear", 0),
-                     "touching": int(group.touching.sum()), "uncertain": count.get("uncertain", 0), "drawn again": int(group.attempt.sum()),
+                     "touching": int(group.touching.sum()), "uncertain": count.get("uncertain", 0),
+                     "drawn again": int(group.attempt.sum()),
                      "precision": " ".join(sorted(group.precision.unique())), "exposes": _exposes(name)})
     frame = pd.DataFrame(rows)
     text, touching = frame.astype(str), ""
     if frame.touching.any():
-        touching = "Touching ones, whose surfaces share a point and no more, count as clear here, and are in no rate. "
+        touching = ("Touching ones, whose surfaces share a point and no more, count as clear here, and "
+                    "are in no rate. ")
     else:
         text = text.drop(columns="touching")
-    return Table("truth", "Cases and their certified labels.", f"Uncertain cases are in no rate. {touching}'Drawn again': draws thrown away because the step began "
-                 "in overlap. Precision: float32 where all numbers of a case are rounded to it.", frame, text, True, ("exposes", "precision", "drawn again"))
+    caption = (f"Uncertain cases are in no rate. {touching}'Drawn again': draws thrown away because the step "
+               "began in overlap. Precision: float32 where all numbers of a case are rounded to it.")
+    return Table("truth", "Cases and their certified labels.", caption, frame, text, True,
+                 ("exposes", "precision", "drawn again"))
 
 
 def method_table(store: Store, found: pd.DataFrame) -> Table:
@@ -214,7 +219,8 @@ def leaderboard(found: pd.DataFrame) -> Table:
     counts["wrong_low"], counts["wrong_high"] = zip(*(metrics.wilson(w, n) for w, n in zip(counts.wrong, counts.judged)))
     counts = counts.assign(share=counts.wrong / counts.judged).sort_values(["share", "wrong_high"], kind="stable", na_position="last")
     single = metrics.out_of_their_depth(found)
-    text = pd.DataFrame({"method": marked(counts.method, single), "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
+    text = pd.DataFrame({"method": marked(counts.method, single),
+                         "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
                          "wrong": _fraction(counts, "wrong", "judged"), "95 %": _interval(counts, "wrong")})
     each = metrics.rates(found, ["method", "question"])
     for question in found.question.unique():
@@ -226,14 +232,16 @@ def leaderboard(found: pd.DataFrame) -> Table:
     text["in margin"] = counts.conservative.astype(str).to_list()
     numbers = counts[["method", "asked", "answered", "wrong", "judged", "wrong_low", "wrong_high", "conservative", *(c for c in counts if c.startswith(tuple(QUESTIONS)))]]
     return Table("leaderboard", "Leaderboard, all questions.", "Misses and false alarms of the certified cases answered, least share first, 95 % Wilson intervals "
-                 "in percent. A method that answers fewer cases had fewer chances to be wrong: compare within a column. In margin: as in the accuracy tables." + _single(single),
+                 "in percent. A method that answers fewer cases had fewer chances to be wrong: compare within a column. In margin: as in the accuracy tables."
+                 + _single(single),
                  numbers, text, False, ("95 %", "in margin"))
 
 
 def accuracy_table(part: pd.DataFrame, question: str) -> Table:
     counts = metrics.rates(part, ["method"])
     single = metrics.out_of_their_depth(part)
-    text = pd.DataFrame({"method": marked(counts.method, single), "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
+    text = pd.DataFrame({"method": marked(counts.method, single),
+                         "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
                          "misses": _fraction(counts, "misses", "hits"), "95 %": _interval(counts, "miss")})
     if question != "overlap":
         text["tunnelled"] = _fraction(counts, "tunnelled", "can_tunnel")
@@ -242,23 +250,29 @@ def accuracy_table(part: pd.DataFrame, question: str) -> Table:
     text["in margin"] = counts.conservative.astype(str)
     tunnelling = " Tunnelled: misses of sweeps whose start and end are both clear." if question != "overlap" else ""
     return Table(f"accuracy-{question}", f"Accuracy, {question}.", "Over the certified cases that a method answered; 95 % Wilson intervals in percent."
-                 f"{tunnelling} In margin: hits reported within the method's documented margin, not counted as false alarms.{_single(single)}", counts, text, True, ("95 %", "95 % ", "in margin", "tunnelled"))
+                 f"{tunnelling} In margin: hits reported within the method's documented margin, not counted as "
+                 f"false alarms.{_single(single)}", counts, text, True, ("95 %", "95 % ", "in margin", "tunnelled"))
 
 
 def touching_table(part: pd.DataFrame, question: str) -> Table:
-    """What each method said where the bodies share a point and no more; no rows where there are no such cases."""
+    """What each method said where the bodies share a point and no more; without such cases no rows."""
     counts = metrics.rates(part[part.touching], ["method"])
     clears = counts.touching - counts.touching_hits
-    text = pd.DataFrame({"method": counts.method, "cases": counts.asked.astype(str), "answered": counts.touching.astype(str),
-                         "said hit": counts.touching_hits.astype(str), "said clear": clears.astype(str)})
+    shown = {"cases": counts.asked, "answered": counts.touching, "said hit": counts.touching_hits,
+             "said clear": clears}
+    text = pd.DataFrame({"method": counts.method, **{k: v.astype(str) for k, v in shown.items()}})
     numbers = counts[["method", "asked", "answered", "touching_hits"]].assign(touching_clears=clears)
-    return Table(f"touching-{question}", f"Touching, {question}.", "The surfaces share a point, certified, and the bodies no more: neither answer is wrong, and "
-                 "these cases are in no rate.", numbers, text, True)
+    caption = ("The surfaces share a point, certified, and the bodies no more: neither answer is wrong, and "
+               "these cases are in no rate.")
+    return Table(f"touching-{question}", f"Touching, {question}.", caption, numbers, text, True)
 
 
 def _single(names: set[str]) -> str:
     """The line under a table that explains its marks."""
-    return f"{MARK}: computes or holds bodies in single precision, and was asked cases whose numbers are not rounded to it." if names else ""
+    if not names:
+        return ""
+    return (f"{MARK}: computes or holds bodies in single precision, and was asked cases whose numbers are "
+            "not rounded to it.")
 
 
 def scenario_table(part: pd.DataFrame, question: str) -> Table:

@@ -33,6 +33,19 @@ from ..store import Store, StoreError
 from ..truth.label import Truth
 
 
+WORST_FIRST = (
+    "miss",
+    "false alarm",
+    "error",
+    "timeout",
+    "conservative",
+    "touching",
+    "right",
+    "no label",
+    "unsupported",
+)
+
+
 @dataclass(frozen=True)
 class Explained:
     """A case, its truth, its row, and what methods said about it (rows of observations.parquet)."""
@@ -176,13 +189,15 @@ def command(name, run_, file, out, save_to, anew, methods, method_files, print_g
         for r in verdicts(found).itertuples()
     ]
     print_grid(
-        f"{found.case.id}: certified {t.label}{', touching' if t.touching else ''}{bracket}, gap {t.gap:.3g}{'. ' + t.reason if t.reason else ''}",
+        f"{found.case.id}: certified {t.label}{', touching' if t.touching else ''}{bracket}, "
+        f"gap {t.gap:.3g}{'. ' + t.reason if t.reason else ''}",
         columns,
         rows,
         "Error: of the time of impact beyond its certified bracket, as a share of the step; positive is late." if sweep else "",
     )
     if sweep:
-        say(f"A {motion_words(found.case.query.motion)}; B {motion_words(found.case.query.motion_b)}.")
+        q = found.case.query
+        say(f"A {motion_words(q.motion)}; B {motion_words(q.motion_b)}.")
     if save_to:
         save(found, save_to)
         say(f"The case is in {save_to}; show it anywhere with: ofg-bench explain --file {save_to}")
@@ -190,7 +205,10 @@ def command(name, run_, file, out, save_to, anew, methods, method_files, print_g
 
 
 def motion_words(motion: Motion) -> str:
-    """'moves by (0, 0, -2), turns by 1.5 rad about the axis (0, 0, 1) through its point (1, 0, 0)', or 'rests'."""
+    """'moves by (0, 0, -2), turns by 1.5 rad about the axis (0, 0, 1) through its point (1, 0, 0)'.
+
+    Or 'rests'.
+    """
 
     def numbers(v) -> str:
         return f"({', '.join(f'{x:.6g}' for x in v)})"
@@ -223,7 +241,7 @@ def verdicts(explained: Explained) -> pd.DataFrame:
     found = found[~found.detail.fillna("").str.startswith("does not answer")]
     order = {
         name: i
-        for i, name in enumerate(("miss", "false alarm", "error", "timeout", "conservative", "touching", "right", "no label", "unsupported"))
+        for i, name in enumerate(WORST_FIRST)
     }
     return (
         found.assign(order=found.outcome.map(order))
@@ -244,7 +262,8 @@ def _pose(row: dict, side: str) -> Pose:
 
 
 def _motion(row: dict, side: str) -> Motion:
-    given = {name: row[name + side] for name in ("displacement", "axis", "angle", "about") if name + side in row}
+    names = ("displacement", "axis", "angle", "about")
+    given = {name: row[name + side] for name in names if name + side in row}
     return Motion(**given)
 
 

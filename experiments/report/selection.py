@@ -86,7 +86,8 @@ def select(query: Query, a: Mesh, b: Mesh, window: tuple[float, float], chosen: 
     if chosen.adaptive_k:
         r, p = poses[0]
         pivots = r @ query.motion.about + p - query.motion_b.about
-        far = np.linalg.norm(pivots) + np.linalg.norm(_displacement(query)) * (window[1] - window[0])
+        flown = np.linalg.norm(_displacement(query)) * (window[1] - window[0])
+        far = np.linalg.norm(pivots) + flown
         reach_a += gap * _speed(query, 0.0, _arm(b.centre, query.motion_b), far)
     fa = _nearest(a, [r.T @ (b.centre - p) for r, p in poses], chosen, reach_a)
     centre, radius = _sphere(a, fa)

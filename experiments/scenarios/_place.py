@@ -208,8 +208,9 @@ def in_world(rng, draft: Draft, offset: float = 1.0) -> Draft:
         return replace(motion, displacement=r @ motion.displacement, axis=r @ motion.axis)
 
     motion_b = draft.motion_b if draft.motion_b.rests else turned(draft.motion_b)
-    return replace(draft, pose_a=moved(draft.pose_a), pose_b=moved(draft.pose_b), motion=turned(draft.motion),
-                   motion_b=motion_b, tags={**(draft.tags or {}), "aligned": aligned})
+    poses = {"pose_a": moved(draft.pose_a), "pose_b": moved(draft.pose_b)}
+    tags = {**(draft.tags or {}), "aligned": aligned}
+    return replace(draft, **poses, motion=turned(draft.motion), motion_b=motion_b, tags=tags)
 
 
 def flight_through(rng, level: float) -> Draft:

@@ -1,4 +1,4 @@
-"""Two bodies fly and turn at once, each about its centre or about another of its points, and meet or stop short."""
+"""Two bodies fly and turn, each about its centre or another of its points, and meet or stop short."""
 
 import numpy as np
 
@@ -15,14 +15,16 @@ def generate(rng, level) -> Draft:
     rotation, contact, normal = touching(rng, a, b, 0.0)
     heading = -normal + 0.5 * any_direction(rng)
     travel = a.size * rng.uniform(0.5, 3.0) * heading / np.linalg.norm(heading)
-    # Who reads A's motion alone sees another approach: B has a share of it, and both drift together.
+    # Who reads A's motion alone sees another approach: B has a share of it, and both drift.
     share, drift = rng.uniform(0.2, 0.8), a.size * any_direction(rng)
     pivot = ("centre", "point")[int(rng.random() < 0.5)]
-    arms = [body.size * rng.uniform(0.3, 1.0) * any_direction(rng) * (pivot == "point") for body in (a, b)]
+    off = float(pivot == "point")
+    arms = [off * body.size * rng.uniform(0.3, 1.0) * any_direction(rng) for body in (a, b)]
     motion = Motion((1 - share) * travel + drift, any_direction(rng), level, arms[0])
     motion_b = Motion(drift - share * travel, any_direction(rng), level, arms[1])
     # At `time` they touch; from there both go back to the start.
-    start_a, start_b = motion.pose_at(Pose(rotation, contact), -time), motion_b.pose_at(Pose(), -time)
+    start_a = motion.pose_at(Pose(rotation, contact), -time)
+    start_b = motion_b.pose_at(Pose(), -time)
     tags = {"place": place, "turns about": pivot}
     return in_world(rng, Draft(a, b, start_a, start_b, motion, tags, motion_b))
 

@@ -124,14 +124,16 @@ def _panel(ax, case: Case, screen: np.ndarray, zoom: float) -> None:
         return Pose(pose.quaternion, pose.position - q.pose_b.position).apply(body.vertices) @ screen.T
 
     bodies = [(body, place(body, pose), colour) for body, pose, _, colour in sides]
-    ghosts = [(body, place(body, motion.pose_at(pose, t)), colour) for body, pose, motion, colour in movers
+    ghosts = [(body, place(body, motion.pose_at(pose, t)), colour)
+              for body, pose, motion, colour in movers
               for t in np.linspace(0, 1, 9 if motion.angle > 1 else 5)[1:]]
     tracks = []  # of each mover: where its arrow begins, and its arc
     for body, pose, motion, _ in movers:
         start = screen @ (pose.apply(motion.about[None])[0] - q.pose_b.position)
         turn = _arc(motion, body.radius) @ screen.T
         tracks.append((motion, start, start + turn if motion.angle else start[None]))
-    every = np.concatenate([v[:, :2] for _, v, _ in bodies + ghosts] + [arc[:, :2] for *_, arc in tracks])
+    places = [v for _, v, _ in bodies + ghosts] + [arc for *_, arc in tracks]
+    every = np.concatenate([v[:, :2] for v in places])
     low, high = every.min(axis=0), every.max(axis=0)
     middle, half = (low + high) / 2, 0.54 * max((high - low) / PANEL) * np.array(PANEL)
     if zoom:

@@ -19,13 +19,14 @@ HEAD = """\
 # Scenario families
 
 Made by `python -m experiments.scenarios.page` from the scenarios in this folder; the pictures by
-`python -m experiments.scenarios.draw experiments/scenarios/figures`. A is blue, B is orange; the later places of a body
-that moves are pale, a straight arrow is its displacement and a curved one its turn.
+`python -m experiments.scenarios.draw experiments/scenarios/figures`. A is blue, B is orange; the
+later places of a body that moves are pale, a straight arrow is its displacement and a curved one
+its turn.
 
 A family is one file. It draws two bodies and a motion at a level of difficulty, and *aims*: at a gap, a feature, a time. What
-the right answer is, it does not say: that is certified afterwards, by `experiments/truth`. Every family here declares
-`precision="float32"`: each number of a case, those of its vertices included, is a float32 number, so that engines in
-single and double precision are asked the same question.
+the right answer is, it does not say: that is certified afterwards, by `experiments/truth`. Every
+family here declares `precision="float32"`: each number of a case, those of its vertices included, is
+a float32 number, so that engines in single and double precision are asked the same question.
 """
 TAIL = """\
 ## How a gap of 1e-16 is reached
@@ -48,8 +49,9 @@ it one of these, put it into this folder (the file is called like the scenario),
 run the two commands at the top of this page. A scenario draws everything from the `rng` it is given and returns a `Draft`; `Scenario.case(seed, level, index)` makes the
 same case for the same arguments whatever was made before. Bodies come from `experiments/shapes.py` or from
 `ofg.Body`; `_place.py` has the constructions that several families share. `redraw_if=("start-overlap",)` draws a sweep
-again whose truth is that it starts in overlap. Its `precision` is "float64" unless it declares "float32": the case is then
-what was drawn, number for number, and the tables mark engines that cannot hold it.
+again whose truth is that it starts in overlap. Its `precision` is "float64" unless it declares
+"float32": the case is then what was drawn, number for number, and the tables mark engines that
+cannot hold it.
 """
 
 

@@ -174,7 +174,9 @@ class KinematicWorld:
         question, motion = ("motion", Motion(axis=(0, 0, 1), angle=self.speed)) if scene.turns else ("translation", Motion((self.speed, 0, 0)))
         for i in range(steps):
             position, turn, _, _ = _initial(scene, self.speed, self.at + i * self.speed, self.attitude)
-            self.queue.append(self.method.ready(Query(question, self.mover, self.obstacle, Pose(turn, position), still, motion)))
+            at = Pose(turn, position)
+            query = Query(question, self.mover, self.obstacle, at, still, motion)
+            self.queue.append(self.method.ready(query))
         self.queue.reverse()
 
     def step(self) -> None:

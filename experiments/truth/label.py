@@ -17,7 +17,8 @@ class Truth:
     that tunnels when missed.
     gap: signed distance, length. Positive: a certified lower bound on the clearance (of a sweep: the least over the step).
     Negative: minus an estimate of the penetration depth (of a sweep: the deepest found over the step). NaN where unknown.
-    touching: clear, and the closed bodies share a point: the certificate's `touching` is its witness. Neither answer is wrong there.
+    touching: clear, and the closed bodies share a point: the certificate's `touching` is its witness.
+    Neither answer is wrong there.
     reason: of an uncertain label, why. certificate: JSON-able; see experiments/truth/README.md. {} where uncertain.
     """
 
