@@ -56,8 +56,7 @@ class Motion:
         checks.pose(pose0, "pose0")
         checks.pose(pose1, "pose1")
         about = checks.vector(about, 3, "about")
-        # Unit quaternions first: the product of unnormalised ones can leave the range of doubles.
-        q0, q1 = (p.quaternion / np.abs(p.quaternion).max() for p in (pose0, pose1))
+        q0, q1 = (near_one(p.quaternion) for p in (pose0, pose1))
         turn = _multiply(q1, q0 * [1, -1, -1, -1])
         turn = -turn if turn[0] < 0 else turn
         sine = float(np.linalg.norm(turn[1:]))
@@ -79,7 +78,6 @@ class Motion:
             return Pose(start.quaternion, position)
         half = 0.5 * self.angle * t
         axis = near_one(self.axis)
-        axis = axis / np.abs(axis).max()
         turn = Pose(np.concatenate([[math.cos(half)], math.sin(half) * axis / np.linalg.norm(axis)]))
         if self.about.any():
             arm = start.rotation @ self.about

@@ -135,7 +135,7 @@ def test_vertices_without_a_face_are_no_part_of_the_body():
     )
     pose = np.array([[1.0, 0, 0, 0, 0, 0, 0]])
     core = ofg.algorithm.core_options(repairs="all", k=8)
-    still = np.zeros((1, 7))
+    still = np.zeros((1, 10))
     assert not ofg._core.ask_many(
         solid, ofg.algorithm.solid(big), pose, pose, still, still, core, 0, False, False, 1
     )[0][0]
@@ -175,7 +175,7 @@ def test_a_point_is_inside_where_the_winding_number_is_not_0(way):
     f = f[:, ::way]
     solid = ofg._core.Solid(v, np.ascontiguousarray(f, np.int32), False, [], [])
     small = ofg.algorithm.solid(Body.convex(CUBE / 10))
-    pose, still = np.array([[1.0, 0, 0, 0, 0, 0, 0]]), np.zeros((1, 7))
+    pose, still = np.array([[1.0, 0, 0, 0, 0, 0, 0]]), np.zeros((1, 10))
     core = ofg.algorithm.core_options(repairs="all", k=8)
     assert ofg._core.ask_many(small, solid, pose, pose, still, still, core, 0, False, False, 1)[0][
         0
