@@ -18,7 +18,7 @@ OPTIONS = (
     {"k": 8, "repairs": "all", "arc_tolerance": 1e-3},
     {"k": 10**6, "screen": True, "edge_edge": True, "earliest": True},
 )
-POWERS = {"double": (-190, -100, 30, 100, 190), "float": (-30, -18, 18, 30)}
+POWERS = {"double": (-190, -100, 30, 100, 190), "float": (-32, -18, 18, 30)}
 
 
 def hull(rng):
