@@ -17,7 +17,7 @@ class BruteForce(Method):
     name = "brute-force"
     engine = "ofg"
     imports = "ofg"
-    configuration = "as written"
+    configuration = "article"
     questions = frozenset(QUESTIONS)
     bodies = frozenset({"convex", "union", "mesh"})
     solid = False

@@ -22,7 +22,7 @@ from ofg import QUESTIONS, Body, Motion, Pose, Query
 from .contract import Method, Unsupported, Verdict
 from .frames import product
 
-CONFIGURATIONS = ("default", "best effort", "alternative", "as written")
+CONFIGURATIONS = ("default", "best effort", "alternative", "article")
 KINDS = ("convex", "union", "mesh")
 UNDECLARED_TIME_ERROR = 0.05  #: what a method that documents no bound is held to on a head-on sweep
 

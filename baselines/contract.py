@@ -34,7 +34,7 @@ class Method(ABC):
     name: ClassVar[str]  #: unique, lower case, as in the tables: "fcl-convex"
     engine: ClassVar[str]  #: distribution whose version the manifest records: "python-fcl"
     imports: ClassVar[str]  #: module that must import: "fcl"
-    configuration: ClassVar[str]  #: "default" (what the documentation shows a newcomer), "best effort", "alternative", "as written"
+    configuration: ClassVar[str]  #: "default" (what the documentation shows a newcomer), "best effort", "alternative", "article"
     questions: ClassVar[frozenset[str]]  #: subset of ofg.QUESTIONS
     bodies: ClassVar[frozenset[str]]  #: subset of {"convex", "union", "mesh"}
     solid: ClassVar[bool]  #: False: tests surfaces, so a contained body is not seen

@@ -100,7 +100,7 @@ def misses(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def operations(rows: pd.DataFrame) -> pd.DataFrame:
-    """Operations as written, by question, faces and k: the largest and the mean share of each of the article's bounds."""
+    """Operations of the article, by question, faces and k: the largest and the mean share of each of the article's bounds."""
     part = rows[~rows.repairs]
     shares = part[["question", "faces", "k"]].assign(
         distances=part.distances / (2 * part.faces),

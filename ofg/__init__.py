@@ -1,6 +1,7 @@
 """Opposing Face Geometry (Eli Kara, GameDev.net 2004): a collision test that looks only at the faces that oppose each other."""
 
 from .algorithm import (
+    article,
     ask,
     brute_force,
     brute_force_many,
@@ -32,6 +33,7 @@ __all__ = [
     "QUESTIONS",
     "Query",
     "REPAIRS",
+    "article",
     "ask",
     "brute_force",
     "brute_force_many",

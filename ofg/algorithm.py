@@ -12,11 +12,11 @@ from .answer import Answer, Answers
 from .arrays import broadcast, check_float, row, rows_of
 from .body import Body
 from .motion import Motion
-from .options import core_options
+from .options import check_article, core_options
 from .pose import Pose
 from .query import Query
 
-OFG, BRUTE_FORCE = 0, 1
+OFG, BRUTE_FORCE, ARTICLE = 0, 1, 2
 _SOLIDS: OrderedDict[str, _core.Solid] = OrderedDict()
 _KEPT_SOLIDS = 256
 MOST_THREADS = 256
@@ -26,23 +26,28 @@ def discrete(a: Body, b: Body, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, 
     """Discrete OFG in eight steps: do the surfaces of `a` and `b` meet at these poses?
 
     k: faces in each selection. At k no less than the number of faces the answer is that of testing all pairs of faces.
-    As written, a body wholly inside another is not seen, and k too small misses.
+    Without repairs a body wholly inside another is not seen, and k too small misses.
 
     Options of all calls:
-    toi: "velocity" (the parameter at which the virtual edge meets the face, put on the real motion), "bisection" or "none".
-    iterations: halvings of the bisection (20: a bracket of 1e-6 of the step; its later end is returned).
+    order: of a sweep's tests. "ends" (the start, the end, then the virtual edges: a hit at an end has the time 0 or 1 and needs no
+    estimate) or "steps" (the article's list read literally: virtual edges first).
+    toi: how a hit between the ends gets its time. "velocity" (the parameter at which the virtual edge meets the face, put on the
+    real motion), "halving" (the article's second way read literally: move half of the step and test the faces; if none met, move
+    half of what is left, and so on; NaN where no move meets), "bisection" (halving with the bracket kept) or "none".
+    iterations: halvings at most (20: a bisection's bracket is then 1e-6 of the step; its later end is returned).
     broad: "swept" (step 1 with bounding spheres swept along the motion) or "start" (at the start pose, the literal reading).
     concave: "object" (OFG at the object level picks one pair of pieces), "undivided" (the surface as one mesh) or "all-pairs" of pieces.
     precision: "double" or "float" (the relative pose is in double always).
     screen: True to let a plane between the whole bodies settle "no" before the steps. The answers are the same, sooner where bodies are
     near and apart, soonest in `discrete_many`; the counts are then of what was done. Adaptive k always does it.
     repairs: "none", "all", "all-but-X", "X" or "X+Y" of the names below; or one by one:
-    nearest="point-triangle" (point-triangle: how faces are ranked; "centroid" as written),
+    nearest="point-triangle" (point-triangle: how faces are ranked; "centroid" in the article),
     adaptive_k=True (adaptive-k), broad="swept" (swept-spheres), both_vertices=True (both-vertices),
     edge_edge=True (edge-edge), selection_times=3 (selection-times: at how many times of the step
     faces are selected), arc_tolerance=1e-6 (arcs: chords stray by no more than this share of A's
-    radius), containment=True (containment), concave="all-pairs" (all-pieces), earliest=True
-    (earliest).
+    radius), containment=True (containment), concave="all-pairs" (all-pieces), end_moment=True (end-moment: a hit that
+    only the end shows is given its moment by bisection), piece_times=3 (pieces-over-time: pieces are picked at the start, the end and
+    where the centres pass closest), earliest=True (earliest).
 
     Ranges: bodies whose largest coordinate is between 1e-60 and 1e60, with precision="float"
     between 1e-10 and 1e10; positions and motions as Pose and Motion say, with precision="float" those of A
@@ -93,6 +98,16 @@ def rotational_sweep(
 def ask(query: Query, *, k: int = 8, **options) -> Answer:
     """The answer to a Query, by the variant that its question names."""
     return _ask(*_asked(query), OFG, k=k, **options)
+
+
+def article(query: Query, *, k: int = 8, broad: str = "start", **options) -> Answer:
+    """The article's steps and nothing else: no acceleration and no repair. ARTICLE.md goes through it sentence by sentence.
+
+    broad: step 1 of a sweep at the start pose, as it reads literally, or "swept". Further options: toi, order, iterations, precision,
+    as of `discrete`. `ask` with the same options gives the same answers, sooner. TypeError for another option.
+    """
+    check_article(options)
+    return _ask(*_asked(query), ARTICLE, k=k, broad=broad, **options)
 
 
 def brute_force(query: Query, *, precision: str = "double") -> Answer:

@@ -14,7 +14,8 @@ COUNTS = ("spheres", "distances", "face_pairs", "edge_faces", "edge_pairs", "ful
 
 @dataclass(frozen=True)
 class Answer:
-    """hit: the bodies meet. time: of impact in [0, 1], NaN where the method gives none (article: only a virtual edge's hit has one).
+    """hit: the bodies meet. time: of impact in [0, 1]: 0 or 1 where faces meet at an end of the step; NaN of an overlap query, and
+    where the estimate gives none.
 
     found: what met. "start" or "end": faces at that pose of the step; an overlap query has only
     "start". "edge-face": a virtual edge of A and a face of B. With repairs also "face-edge": a
@@ -25,7 +26,7 @@ class Answer:
     faces: (face of A, face of B) that met, indices into the faces of `pieces`; -1 where no face
     did, as with "inside".
     pieces: (piece of A, piece of B) that were asked; -1 for an undivided mesh.
-    estimate: "velocity", "bisection" or "none": how the time was found.
+    estimate: "velocity", "bisection", "halving" or "none": how the time was found.
     counts: operations by kind: spheres (pairs compared), distances (point to face or piece), face_pairs (settled), edge_faces (virtual
     edges against faces), edge_pairs, full_tests (of face_pairs: not settled by a cheap rejection), evaluated (distances computed to settle
     `distances`, to faces and to boxes of blocks of faces), steps (parts of the step, halvings).

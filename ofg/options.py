@@ -1,4 +1,4 @@
-"""What may be chosen in a query: OFG as written by default, and every repair as a switch of its own."""
+"""What may be chosen in a query: the article by default, and every repair as a switch of its own."""
 
 from __future__ import annotations
 
@@ -6,10 +6,14 @@ from typing import Any, Mapping
 
 from . import _core, checks
 
-TOI = ("none", "velocity", "bisection")
+TOI = ("none", "velocity", "bisection", "halving")
+ORDER = ("ends", "steps")
 BROAD = ("start", "swept")
 CONCAVE = ("object", "undivided", "all-pairs")
 NEAREST = ("centroid", "point-triangle")
+SWITCHES = (
+    "adaptive_k", "both_vertices", "edge_edge", "containment", "end_moment", "earliest", "screen"
+)
 #: options that had another name once
 RENAMED = {"selection": "nearest", "selections": "selection_times"}
 
@@ -24,6 +28,8 @@ REPAIRS: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {
     "arcs": ({"arc_tolerance": 1e-6}, {"arc_tolerance": 0.0}),
     "containment": ({"containment": True}, {"containment": False}),
     "all-pieces": ({"concave": "all-pairs"}, {"concave": "object"}),
+    "end-moment": ({"end_moment": True}, {"end_moment": False}),
+    "pieces-over-time": ({"piece_times": 3}, {"piece_times": 1}),
     "earliest": ({"earliest": True}, {"earliest": False}),
 }
 
@@ -66,15 +72,25 @@ def core_options(
     o.toi = checks.one_of("toi", toi, TOI)
     o.broad = checks.one_of("broad", chosen.pop("broad", "swept"), BROAD)
     o.concave = checks.one_of("concave", chosen.pop("concave", "object"), CONCAVE)
+    o.order = checks.one_of("order", chosen.pop("order", "ends"), ORDER)
     o.nearest = checks.one_of("nearest", chosen.pop("nearest", "centroid"), NEAREST)
     o.selection_times = checks.whole("selection_times", chosen.pop("selection_times", 1), 1, 3)
+    o.piece_times = checks.whole("piece_times", chosen.pop("piece_times", 1), 1, 3)
     o.iterations = checks.whole("iterations", chosen.pop("iterations", 20), 1, 60)
     o.arc_tolerance = _tolerance(chosen.pop("arc_tolerance", 0.0))
-    for name in ("adaptive_k", "both_vertices", "edge_edge", "containment", "earliest", "screen"):
+    for name in SWITCHES:
         setattr(o, name, checks.truth(name, chosen.pop(name, False)))
     if chosen:
         _refuse(next(iter(chosen)))
     return o
+
+
+def check_article(options: Mapping[str, Any]) -> None:
+    """TypeError for an option that the article's steps do not have."""
+    known = ("k", "toi", "order", "iterations", "broad", "precision")
+    for name in options:
+        if name not in known:
+            raise TypeError(f"The article has no option '{name}'; it has {', '.join(known)}.")
 
 
 def _tolerance(value: Any) -> float:
@@ -91,7 +107,7 @@ def _refuse(name: str) -> None:
     if name in RENAMED:
         raise TypeError(f"OFG has no option '{name}' any more; it is called '{RENAMED[name]}'.")
     raise TypeError(
-        f"OFG has no option '{name}'; it has k, toi, broad, concave, iterations, repairs, nearest, "
+        f"OFG has no option '{name}'; it has k, toi, broad, concave, order, iterations, repairs, nearest, "
         "adaptive_k, both_vertices, edge_edge, selection_times, arc_tolerance, containment, "
-        "earliest, screen."
+        "end_moment, piece_times, earliest, screen."
     )

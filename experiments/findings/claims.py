@@ -382,7 +382,7 @@ def thin_walls(runs: Runs):
 )
 def flights(runs: Runs):
     found = rows(runs.answers(runs.board), question="translation")
-    every, own, mended = rate(found, method="brute-force"), *(
+    every, own, whole = rate(found, method="brute-force"), *(
         or_reason(lambda: rate(found, method=m)) for m in ("ofg k=8", "ofg k=8 repairs=all")
     )
 
@@ -396,7 +396,7 @@ def flights(runs: Runs):
         are_small([every]),
         f"missed: all faces {every}, k=8 {own}",
         (
-            f"All repairs: {mended}. All faces miss most in {worst_families(found, 'brute-force')}; in `contact` by the features"
+            f"All repairs: {whole}. All faces miss most in {worst_families(found, 'brute-force')}; in `contact` by the features"
             f" that meet, of A and B: {or_reason(features)}."
         ),
     )
@@ -663,7 +663,7 @@ def robust(runs: Runs):
     "The repairs were made while looking at these families, and all runs share a seed: a case of one name is the same"
     " everywhere.",
 )
-def mended(runs: Runs):
+def repaired(runs: Runs):
     found = runs.answers("repairs")
     base, all_ = "ofg k=8", "ofg k=8 repairs=all"
     by_question = {q: rate(found, method=all_, question=q) for q in found.question.unique()}
@@ -673,13 +673,13 @@ def mended(runs: Runs):
     }
     without = {m.split("all-but-")[1]: len(lost[m] - lost[all_]) for m in lost if "all-but-" in m}
     text = (
-        f"As written {rate(found, method=base)} missed. Of these each repair alone finds: {listed(alone)}. Left out of all, it"
+        f"The article {rate(found, method=base)} missed. Of these each repair alone finds: {listed(alone)}. Left out of all, it"
         f" brings back: {listed(without)}."
     )
     alarms = [or_reason(lambda: rate(found, "false alarms", method=m)) for m in (base, all_)]
     text += (
         f" Price of all, net time over k = 8: {ratios_listed(lambda: runs.times('repairs'), all_, base, 'question')}. False"
-        f" alarms: as written {alarms[0]}, with all {alarms[1]}."
+        f" alarms: article {alarms[0]}, with all {alarms[1]}."
     )
 
     def everywhere():

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "ofg/article.hpp"
 #include "ofg/batch.hpp"
 #include "ofg/brute_force.hpp"
 
@@ -85,18 +86,18 @@ struct Solid {
   }
 };
 
-enum class Algorithm { ofg, brute_force };
+enum class Algorithm { ofg, brute_force, article };
 
 Algorithm algorithm_of(int how) {
-  if (how != 0 && how != 1) throw nb::value_error("algorithm must be 0 (OFG) or 1 (brute force)");
+  if (how < 0 || how > 2) throw nb::value_error("algorithm must be 0 (OFG), 1 (brute force) or 2 (the article)");
   return Algorithm(how);
 }
 
 void check_options(const ofg::Options& o) {
-  const bool words = int(o.toi) >= 0 && int(o.toi) < 3 && int(o.broad) >= 0 && int(o.broad) < 2 &&
+  const bool words = int(o.toi) >= 0 && int(o.toi) < 4 && int(o.order) >= 0 && int(o.order) < 2 && int(o.broad) >= 0 && int(o.broad) < 2 &&
                      int(o.concave) >= 0 && int(o.concave) < 3 && int(o.nearest) >= 0 &&
                      int(o.nearest) < 2;
-  if (!words || o.k < 1 || o.selection_times < 1 || o.selection_times > 3 || o.iterations < 1 ||
+  if (!words || o.k < 1 || o.selection_times < 1 || o.selection_times > 3 || o.piece_times < 1 || o.piece_times > 3 || o.iterations < 1 ||
       !(o.arc_tolerance >= 0))
     throw nb::value_error("an option is out of range");
 }
@@ -107,6 +108,8 @@ ofg::Answer ask(Algorithm how, bool moving, const Solid& a, const Solid& b, cons
   const auto &ba = a.as<T>(), &bb = b.as<T>();
   if (how == Algorithm::brute_force)
     return moving ? ofg::brute_force::sweep(ba, bb, track) : ofg::brute_force::overlap(ba, bb, track);
+  if (how == Algorithm::article)
+    return moving ? ofg::article::sweep(ba, bb, track, o, w) : ofg::article::overlap(ba, bb, track, o, w);
   return moving ? ofg::sweep(ba, bb, track, o, w) : ofg::overlap(ba, bb, track, o, w);
 }
 
@@ -320,7 +323,12 @@ NB_MODULE(_core, m) {
       .def_prop_rw(
           "nearest", [](const ofg::Options& o) { return int(o.nearest); },
           [](ofg::Options& o, int v) { o.nearest = ofg::Nearest(v); })
+      .def_prop_rw(
+          "order", [](const ofg::Options& o) { return int(o.order); },
+          [](ofg::Options& o, int v) { o.order = ofg::Order(v); })
       .def_rw("iterations", &ofg::Options::iterations)
+      .def_rw("end_moment", &ofg::Options::end_moment)
+      .def_rw("piece_times", &ofg::Options::piece_times)
       .def_rw("adaptive_k", &ofg::Options::adaptive_k)
       .def_rw("both_vertices", &ofg::Options::both_vertices)
       .def_rw("edge_edge", &ofg::Options::edge_edge)

@@ -10,7 +10,7 @@ class Aligned(Method):
 
     name = "faulty-aligned"
     engine, imports = "numpy", "numpy"
-    configuration = "as written"
+    configuration = "article"
     questions = frozenset({"overlap"})
     bodies = frozenset({"convex"})
     solid = True

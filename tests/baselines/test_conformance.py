@@ -29,6 +29,10 @@ KNOWN_DEFECTS = {
     ("brute-force", TURNS): "its virtual edges are chords, as OFG's",
     ("ofg", ABOUT): "virtual edges are chords: about a point ten lengths off the arc leaves them by more than the cube's size",
     ("brute-force", ABOUT): "its virtual edges are chords, as OFG's",
+    ("ofg", HEAD_ON): "where the faces at the end of the step meet, the article's time is 1",
+    **{("ofg-article", title): "step 1 at the start pose rejects what moves fast" for title in (HEAD_ON, TOWARDS)},
+    ("ofg-article", TURNS): "virtual edges are chords: at 170 degrees they cut through the circle",
+    ("ofg-article", ABOUT): "virtual edges are chords: about a point ten lengths off the arc leaves them",
 }
 
 # Asked with other parameters than the default, which would take minutes.

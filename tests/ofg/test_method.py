@@ -40,7 +40,7 @@ def test_what_a_method_declares_follows_its_parameters():
     assert [
         (m.solid, m.configuration)
         for m in (method(), method(k=64, concave="all-pairs"), method(repairs="all"), method(adaptive_k=True))
-    ] == [(False, "as written"), (False, "as written"), (True, "best effort"), (False, "alternative")]
+    ] == [(False, "article"), (False, "article"), (True, "best effort"), (False, "alternative")]
 
 
 def test_a_prepared_query_may_be_asked_again(cube):

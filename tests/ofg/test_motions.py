@@ -100,7 +100,7 @@ def test_a_turn_about_a_point_is_a_turn_about_the_origin_of_a_frame_put_there(se
             ofg.ask(Query("motion", a, b, pa, pb, ma, mb), **options),
         )
         assert one.hit == other.hit
-        # As written the first hit in the order of the faces is taken, and the hulls are made anew.
+        # Without repairs the first hit in the order of the faces is taken, and the hulls are made anew.
         if options != {"k": 8}:
             assert np.isclose(one.time, other.time, rtol=0, atol=2e-5, equal_nan=True)
 

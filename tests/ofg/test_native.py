@@ -25,7 +25,7 @@ def build_and_run(source: Path, target: str, folder: Path) -> str:
 def test_the_example_builds_without_python_and_runs(tmp_path):
     now, written, repaired = build_and_run(ROOT / "ofg/examples", "example", tmp_path).splitlines()
     assert now == "now: clear" and written.startswith("step: hit at") and repaired.startswith("step: hit at")
-    # As written the virtual edges are chords, so the rod is in the wall before it is said to be; the repaired time is checked by
+    # In the article the virtual edges are chords, so the rod is in the wall before it is said to be; the repaired time is checked by
     # hand: the rod's half-length 2 and half-width 0.1 reach the wall's face, x = -0.05, first with a corner.
     times = [float(line.split()[3].rstrip(",")) for line in (written, repaired)]
     assert 0 < times[1] <= times[0] < 1

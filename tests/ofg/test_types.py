@@ -184,7 +184,8 @@ def test_native_code_refuses_options_out_of_range():
     for name, value in (
         ("k", 0),
         ("selection_times", 4),
-        ("toi", 3),
+        ("toi", 4),
+        ("order", 2),
         ("nearest", -1),
         ("concave", 7),
     ):
@@ -193,4 +194,4 @@ def test_native_code_refuses_options_out_of_range():
         with pytest.raises(ValueError, match="out of range"):
             _core.ask_many(body, body, *arrays, options, 0, True, False, 1)
     with pytest.raises(ValueError, match="algorithm"):
-        _core.ask_many(body, body, *arrays, core_options(), 2, True, False, 1)
+        _core.ask_many(body, body, *arrays, core_options(), 3, True, False, 1)

@@ -21,11 +21,6 @@ struct Box {
 };
 
 template <class T>
-Triangle<T> in_units(const Triangle<T>& t, T unit) {
-  return {t.a * unit, t.b * unit, t.c * unit};
-}
-
-template <class T>
 bool surfaces_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T scale, Answer& answer) {
   const T unit = unit_for(scale);
   const Transform<T> pose = to_b.in_units(unit);
@@ -74,7 +69,7 @@ Answer sweep(const Body<T>& a, const Body<T>& b, const Track& track) {
   for (int i = 0; i < ma.vertices.size(); ++i)
     for (int j = 0; j < mb.size(); ++j) {
       ++answer.counts.edge_faces;
-      const Triangle<T> face = detail::in_units(mb.triangle(j), unit);
+      const Triangle<T> face = in_units(mb.triangle(j), unit);
       const T share = segment_meets(from(ma.vertices[i]), to(ma.vertices[i]), face, scale * unit);
       if (share >= 0 && share < contact.share) contact = {Found::edge_face, double(share), i, j, -1, j};
     }

@@ -1,5 +1,8 @@
 // Opposing Face Geometry for bodies: convex, concave in pieces, or undivided meshes.
 #pragma once
+#include <algorithm>
+#include <array>
+
 #include "sweep.hpp"
 
 namespace ofg {
@@ -24,18 +27,24 @@ int nearest_piece(const Body<T>& body, const Vec3<T>& p, Counts& counts) {
   return best;
 }
 
-// OFG at the object level: the piece of A nearest to the centre of B, then the piece of B nearest to that piece.
+// OFG at the object level: the piece of A nearest to the centre of B, then the piece of B nearest to that piece; where they are
+// at time t.
 template <class T>
-Pair<T> opposing_pieces(const Body<T>& a, const Body<T>& b, const Track& track, Counts& counts) {
+Pair<T> opposing_pieces(const Body<T>& a, const Body<T>& b, const Track& track, Counts& counts, double t = 0) {
   const bool many_a = a.pieces.size() > 1, many_b = b.pieces.size() > 1;
   int i = a.pieces.empty() ? -1 : 0, j = b.pieces.empty() ? -1 : 0;
   if (many_a || many_b) {
-    const Transform<double> pose = track.at(0);
+    const Transform<double> pose = track.at(t);
     if (many_a) i = nearest_piece(a, Vec3<T>(pose.inverse()(Vec3<double>(b.centre))), counts);
     const Mesh<T>& mine = i < 0 ? a.whole : a.pieces[i];
     if (many_b) j = nearest_piece(b, Vec3<T>(pose(Vec3<double>(mine.centre))), counts);
   }
   return {i < 0 ? a.whole : a.pieces[i], j < 0 ? b.whole : b.pieces[j], i, j};
+}
+
+// Is the second answer to be preferred? A hit to none, an earlier time to a later one or to none.
+inline bool better(const Answer& now, const Answer& one) {
+  return one.hit && (!now.hit || one.time < now.time || (now.time != now.time && one.time == one.time));
 }
 
 // Every pair of pieces. An overlap stops at the first hit; a sweep goes on, for the earliest time.
@@ -47,8 +56,7 @@ Answer all_pieces(const Body<T>& a, const Body<T>& b, bool first_settles, Ask as
     for (int j = b.pieces.empty() ? -1 : 0; j < int(b.pieces.size()); ++j) {
       const Answer one = ask(Pair<T>{i < 0 ? a.whole : a.pieces[i], j < 0 ? b.whole : b.pieces[j], i, j});
       counts.add(one.counts);
-      const bool better = one.hit && (!best.hit || one.time < best.time || (best.time != best.time && one.time == one.time));
-      if (better) best = one, best.piece_a = i, best.piece_b = j;
+      if (better(best, one)) best = one, best.piece_a = i, best.piece_b = j;
       if (best.hit && (first_settles || best.time == 0)) {
         best.counts = counts;
         return best;
@@ -58,10 +66,33 @@ Answer all_pieces(const Body<T>& a, const Body<T>& b, bool first_settles, Ask as
   return best;
 }
 
+// A repair: the pieces are chosen where they are at the start, at the end and where the centres pass closest; every pair that was
+// chosen is asked, and the earliest time counts.
+template <class T, class Ask>
+Answer pieces_over_time(const Body<T>& a, const Body<T>& b, const Track& track, int n, Ask ask) {
+  const Vec3<double> ca(a.centre), cb(b.centre), from = track.between(ca, cb, 0), step = track.between(ca, cb, 1) - from;
+  const double along = dot(step, step), nearest = along > 0 ? std::fmin(1.0, std::fmax(0.0, -dot(from, step) / along)) : 0;
+  const double times[3] = {0, 1, nearest};
+  Answer best;
+  Counts counts;
+  std::array<std::array<int, 2>, 3> seen;
+  for (int i = 0; i < n; ++i) {
+    const Pair<T> pair = opposing_pieces(a, b, track, counts, times[i]);
+    seen[std::size_t(i)] = {pair.piece_a, pair.piece_b};
+    if (std::find(seen.begin(), seen.begin() + i, seen[std::size_t(i)]) != seen.begin() + i) continue;
+    Answer one = ask(pair);
+    counts.add(one.counts);
+    if (i == 0 || better(best, one)) best = one, best.piece_a = pair.piece_a, best.piece_b = pair.piece_b;
+  }
+  best.counts = counts;
+  return best;
+}
+
 template <class T, class Ask>
 Answer ask_pieces(const Body<T>& a, const Body<T>& b, const Track& track, const Options& o, bool first_settles, Ask ask) {
   if (o.concave == Concave::undivided) return ask(Pair<T>{a.whole, b.whole, -1, -1});
   if (o.concave == Concave::all_pairs) return all_pieces(a, b, first_settles, ask);
+  if (o.piece_times > 1 && !first_settles) return pieces_over_time(a, b, track, std::min(o.piece_times, 3), ask);
   Counts counts;
   const Pair<T> pair = opposing_pieces(a, b, track, counts);
   Answer answer = ask(pair);

@@ -66,6 +66,33 @@ double bisection_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, co
   return hi;
 }
 
+// The article's second way: move half of the window and test the faces there; if none met, move half of what is left, and so on.
+// NaN where none of the moves meets.
+template <class T>
+double halving_time(const Mesh<T>& a, const Track& track, const Window<T>& window, const Options& o, T scale, Workspace<T>& w,
+                    Counts& counts) {
+  double t = window.t0;
+  for (int i = 0; i < o.iterations; ++i) {
+    t += (window.t1 - t) / 2;
+    ++counts.steps;
+    Answer there;
+    const bool hit = surfaces_meet(a, track.at(t), w, scale, there);
+    counts.add(there.counts);
+    if (hit) return t;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+// The time of a hit between the ends, in the way that was asked for.
+template <class T>
+double time_of_impact(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, const Contact& contact,
+                      const Options& o, T scale, Workspace<T>& w, Counts& counts) {
+  if (o.toi == Toi::velocity) return velocity_time(a, b, track, window, contact);
+  if (o.toi == Toi::bisection) return bisection_time(a, b, track, window, o, scale, w, counts);
+  if (o.toi == Toi::halving) return halving_time(a, track, window, o, scale, w, counts);
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 // Selections for a window: at its start, or also at its end, or also where the centres pass closest.
 template <class T>
 void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, const Options& o,
@@ -142,23 +169,24 @@ bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const 
   }
   const auto at_start = [&] {
     if (!first || !surfaces_meet(a, window.start, w, scale, answer)) return false;
-    answer.found = Found::start;
-    if (o.earliest) answer.time = window.t0;
+    return answer.found = Found::start, answer.time = window.t0, true;
+  };
+  const auto at_end = [&] {
+    if (!surfaces_meet(a, window.end, w, scale, answer)) return false;
+    answer.found = window.t1 < 1 ? Found::within : Found::end;
+    answer.time = o.end_moment ? bisection_time(a, b, track, window, o, scale, w, counts) : window.t1;
     return true;
   };
-  if (o.earliest && at_start()) return true;
-  Contact contact;
-  if (features_meet(a, b, window.start, window.end, o, scale, w, contact, counts)) {
+  const auto in_between = [&] {
+    Contact contact;
+    if (!features_meet(a, b, window.start, window.end, o, scale, w, contact, counts)) return false;
     answer.found = contact.found, answer.face_a = contact.face_a, answer.face_b = contact.face_b;
-    if (o.toi == Toi::velocity) answer.time = velocity_time(a, b, track, window, contact);
-    if (o.toi == Toi::bisection) answer.time = bisection_time(a, b, track, window, o, scale, w, counts);
+    answer.time = time_of_impact(a, b, track, window, contact, o, scale, w, counts);
     return true;
-  }
-  if (!o.earliest && at_start()) return true;
-  if (!surfaces_meet(a, window.end, w, scale, answer)) return false;
-  answer.found = window.t1 < 1 ? Found::within : Found::end;
-  if (o.earliest) answer.time = window.t1;
-  return true;
+  };
+  if (o.earliest) return at_start() || in_between() || at_end();
+  if (o.order == Order::steps) return in_between() || at_start() || at_end();
+  return at_start() || at_end() || in_between();
 }
 
 // Does a body hold a point of the other at one pose? Then the faces are named that meet there, if
@@ -242,8 +270,7 @@ Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Optio
   answer.hit = parts.meet(window, true, 0);
   if (!answer.hit &&
       detail::overlaps_at(a, b, window.end, Found::end, slack(window.end), o, w, answer)) {
-    answer.hit = true;
-    if (o.earliest) answer.time = 1;
+    answer.hit = true, answer.time = 1;
   }
   return answer;
 }

@@ -17,6 +17,11 @@ struct Triangle {
 };
 
 template <class T>
+Triangle<T> in_units(const Triangle<T>& t, T unit) {
+  return {t.a * unit, t.b * unit, t.c * unit};
+}
+
+template <class T>
 constexpr T rounding = 8 * std::numeric_limits<T>::epsilon();
 
 namespace detail {

@@ -32,7 +32,7 @@ def test_no_run_starts_in_touch(scene):
 
 
 class Blind(Method):
-    name, engine, imports, configuration = "blind", "numpy", "numpy", "as written"
+    name, engine, imports, configuration = "blind", "numpy", "numpy", "article"
     questions, bodies, solid, guarantee = frozenset({"translation", "motion"}), frozenset({"convex"}), True, "none"
     answer = Verdict(False)
 
