@@ -122,3 +122,21 @@ def test_with_all_repairs_sweeps_find_all_that_brute_force_finds_at_any_time(hul
                 hits += 1
                 assert got.hit[i] and got.time[i] <= times[np.argmax(sampled.hit)] + 1e-9
     assert hits > 20
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("tip", [1e-11, 1e-19])
+def test_a_face_too_small_to_be_seen_stops_nothing(precision, tip):
+    """Seen from a vertex such a face is a point: all three products are 0, which was taken for inside, anywhere in its plane."""
+    turns = np.exp(2j * np.pi * np.arange(3) / 3)
+    ring = np.stack([np.zeros(3), turns.real, turns.imag], axis=1)
+    v = np.concatenate([0.5 * ring + [0.5, 0, 0], tip * ring + [-0.433, 0, 0]])
+    sides = [f for i in range(3) for f in ((i, (i + 1) % 3, 3 + i), ((i + 1) % 3, 3 + (i + 1) % 3, 3 + i))]
+    spike = Body.mesh(v, np.array([(0, 2, 1), (3, 4, 5), *sides])[:, ::-1], "spike")
+    small = Body.convex(CUBE * 0.05, "cube")
+    start = Pose(position=(-0.5, 0.4, 0.1))
+    for order in ("ends", "steps"):
+        assert not ofg.translational_sweep(small, spike, (0.2, 0, 0), start, k=99, order=order, precision=precision)
+        assert not ofg.article(
+            ofg.Query("translation", small, spike, start, motion=Motion((0.2, 0, 0))), k=99, broad="swept", precision=precision
+        )

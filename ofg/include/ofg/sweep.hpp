@@ -111,7 +111,7 @@ void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Wi
   Vec3<T> point[3];
   for (int i = 0; i < n; ++i) {
     pose[i] = times[i] == window.t0 ? window.start : times[i] == window.t1 ? window.end : track.at(times[i]);
-    point[i] = Vec3<T>(pose[i].inverse()(cb));
+    point[i] = Transform<T>(pose[i].inverse())(b.centre);
   }
   T reach_a = b.radius, reach_b = 0;
   double far = 0;
@@ -122,7 +122,7 @@ void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Wi
   select(a, point, n, o, reach_a, w, w.a, counts);
   if (o.adaptive_k)
     reach_b = w.a.radius + T(gap * track.speed(track.a.lever(Vec3<double>(w.a.centre)), 0, far));
-  for (int i = 0; i < n; ++i) point[i] = Vec3<T>(pose[i](Vec3<double>(w.a.centre)));
+  for (int i = 0; i < n; ++i) point[i] = Transform<T>(pose[i])(w.a.centre);
   select(b, point, n, o, reach_b, w, w.b, counts);
 }
 

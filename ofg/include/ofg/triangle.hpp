@@ -95,8 +95,9 @@ inline T segment_meets(const Vec3<T>& p, const Vec3<T>& q, const Triangle<T>& t,
   if ((from > least && to > least) || (from < -least && to < -least)) return -1;
   if (std::abs(from) > least || std::abs(to) > least) {
     const T u = dot(cross(a, b), d), v = dot(cross(b, c), d), w = dot(cross(c, a), d);
+    // All three 0: from p the triangle is a point, and the segment may pass its plane anywhere.
     const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-    if (!inside) return -1;
+    if (!inside || (u == 0 && v == 0 && w == 0)) return -1;
     const T s = from / (from - to);
     return s > 0 ? (s < 1 ? s : T(1)) : T(0);
   }

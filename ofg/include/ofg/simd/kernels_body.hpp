@@ -373,7 +373,8 @@ static void segments_miss(const TriangleView<T>& t, int n, const T* s, T slack, 
     const V u = (ay * bz - az * by) * dx + (az * bx - ax * bz) * dy + (ax * by - ay * bx) * dz;
     const V v = (by * cz - bz * cy) * dx + (bz * cx - bx * cz) * dy + (bx * cy - by * cx) * dz;
     const V q = (cy * az - cz * ay) * dx + (cz * ax - cx * az) * dy + (cx * ay - cy * ax) * dz;
-    const I inside = ((u >= zero) & (v >= zero) & (q >= zero)) | ((u <= zero) & (v <= zero) & (q <= zero));
+    const I inside = (((u >= zero) & (v >= zero) & (q >= zero)) | ((u <= zero) & (v <= zero) & (q <= zero))) &
+                     ~((u == zero) & (v == zero) & (q == zero));
     const I r = one_side | (~inside & ~in_plane);
     for (int l = 0; l < w; ++l) miss[i + l] = r[l] != 0;
   }
