@@ -42,6 +42,9 @@ class View:
 
 
 VIEWS = {
+    "article_pieces": View(-0.01, {}, (0.6, -0.8, 2.0)),
+    "article_table": View(0.1, {"aligned": "yes"}),
+    "article_wall": View(10.0, {"place": "through"}, (2.2, -0.7, 0.5)),
     "both_moving": View(1.5, {"place": "onto", "turns about": "centre"}, (0.6, -0.8, 2.0), which=1),
     "concave_rotation": View(1.0, {"kind": "frame about a peg"}, (0.6, -0.8, 2.0)),
     "contact": View(30.0, {"place": "onto", "feature": "vertex-face"}, which=10),
