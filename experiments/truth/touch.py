@@ -181,7 +181,8 @@ def _through(rough: np.ndarray, on_a: list, on_b: list, touching: bool) -> list 
 
 def _on(points: list, n: list, extreme) -> list[int]:
     keys = [dot(n, x) for x in points]
-    return [k for k, key in enumerate(keys) if key == extreme(keys)]
+    most = extreme(keys)
+    return [k for k, key in enumerate(keys) if key == most]
 
 
 def _meeting(A: list, B: list) -> tuple[list, list] | None:
