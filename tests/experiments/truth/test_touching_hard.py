@@ -43,3 +43,16 @@ def test_a_corner_on_a_face_is_clear_and_tagged(a, b, way):
 def test_bodies_that_touch_and_move_alike_stay_in_touch():
     truth = label(touching(CUBE, CUBE, motion_b=(3, 1, 4)))
     assert (truth.label, truth.touching, truth.reason) == ("clear", True, "")
+
+
+def test_bodies_a_hair_apart_that_move_in_at_once_are_a_hit_from_a_clear_start():
+    """Apart by 1e-20 of their size: no time passes before they meet, and the start is clear still."""
+    bar = Body.convex(CORNERS * [104, 104, 425984.0], "bar")
+    points = [(-400, 500, -400), (200, 600, -400), (500, 300, 0), (-500, 0, -300)]
+    points += [(200, -200, -500), (-600, 600, 400), (200, -300, -200), (-600, -600, 300)]
+    rock = Body.convex(points, "rock")
+    poses = Pose((-1, 3, -4, 0), (2.0**-66, 0, 0)), Pose((-2, 4, 1, -2), (-396, -108, 456))
+    query = Query("translation", bar, rock, *poses, Motion((20, 49, -5)), Motion((16, 42, -26)))
+    truth = label(query)
+    assert (truth.label, truth.start, truth.t_lo) == ("hit", "clear", 0)
+    assert truth.t_hi < 1e-12 and check(query, truth).ok
