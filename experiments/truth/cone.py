@@ -1,4 +1,4 @@
-"""A plane between two convex point sets, or the proof that there is none: whole numbers, no rounding.
+"""A plane between two convex point sets, or the proof that there is none, in whole numbers.
 
 A normal n separates A from B if n.c >= 0 for every c = b - a. The normals still possible form a
 cone, kept by its extreme rays in order. A normal amid them is tried; the pair of vertices that

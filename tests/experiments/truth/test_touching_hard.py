@@ -1,4 +1,4 @@
-"""Bodies that touch exactly and that rounded searches do not part: thin, unlike in size, far away."""
+"""Bodies that touch and that no rounded search parts: thin, unlike in size, far away."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def test_bodies_that_touch_and_move_alike_stay_in_touch():
 
 
 def test_bodies_a_hair_apart_that_move_in_at_once_are_a_hit_from_a_clear_start():
-    """Apart by 1e-20 of their size: no time passes before they meet, and the start is clear still."""
+    """Apart by 1e-20 of their size: no time passes before they meet, and the start is clear."""
     bar = Body.convex(CORNERS * [104, 104, 425984.0], "bar")
     points = [(-400, 500, -400), (200, 600, -400), (500, 300, 0), (-500, 0, -300)]
     points += [(200, -200, -500), (-600, 600, 400), (200, -300, -200), (-600, -600, 300)]
