@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 
 import numpy as np
 import trimesh
@@ -116,7 +115,7 @@ class Body:
         Kind, split and weld as of from_trimesh. The file may be gzipped, bzipped or in a ZIP. most:
         bytes that it may hold when unpacked. BodyError names the file, the fault and the remedy.
         """
-        path = Path(path)
+        path = meshfile.path_of(path)
         return cls._from_parts(
             meshfile.read(path, most),
             name or meshfile.name_of(path),

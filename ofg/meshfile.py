@@ -6,6 +6,7 @@ import bz2
 import gzip
 import io
 import json
+import os
 import re
 import zipfile
 from pathlib import Path
@@ -13,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
+from . import plainfile
 from .solid import BodyError
 
 MOST_BYTES = 512 * 2**20  #: of a file when unpacked: some ten million triangles in a binary STL
@@ -78,6 +80,13 @@ def read(path: Path, most: int = MOST_BYTES) -> list[tuple[np.ndarray, np.ndarra
         raise _unreadable(who, error) from error
 
 
+def path_of(path) -> Path:
+    """TypeError for what is no path."""
+    if isinstance(path, (str, os.PathLike)):
+        return Path(path)
+    raise TypeError(f"path = {path!r} must be the path of a mesh file: a string or a Path.")
+
+
 def name_of(path: Path) -> str:
     """The file's name without what says its format."""
     return Path(path.stem).stem if path.suffix.lower() in (".gz", ".bz2") else path.stem
@@ -103,8 +112,20 @@ def parts_of(mesh, who: str) -> list[tuple[np.ndarray, np.ndarray]]:
         else:
             clouds += len(getattr(geometry, "vertices", ()))
     if not out:
-        raise _cloud(clouds, who) if clouds else BodyError(f"{who}: it holds no faces. {REMEDY}")
+        raise _no_faces(clouds, who)
     return out
+
+
+def _with_faces(parts, who: str):
+    """The parts that have faces; BodyError if none has."""
+    out = [(v, f) for v, f in parts if len(f)]
+    if not out:
+        raise _no_faces(max((len(v) for v, _ in parts), default=0), who)
+    return out
+
+
+def _no_faces(points: int, who: str) -> BodyError:
+    return _cloud(points, who) if points else BodyError(f"{who}: it holds no faces. {REMEDY}")
 
 
 def _placed(v, f, matrix):
@@ -120,18 +141,17 @@ def _natural(name):
 
 
 def _loaded(data: bytes | None, kind: str, who: str, path: Path | None = None, most: int = 0):
-    """By trimesh, as the file has it: nothing merged, dropped or repaired."""
+    """As the file has it: nothing merged, dropped or repaired."""
     if data is not None and data.lstrip()[:12] == b"ISO-10303-21":
         _require_known("step", who)
-    options = {"split_objects": True, "skip_materials": True} if kind == "obj" else {}
     try:
+        if kind in plainfile.KINDS and data is not None:
+            return _with_faces(plainfile.parts(data, kind), who)
         if path is not None:
             _require_buffers(path, most, who)
             scene = trimesh.load_scene(path, process=False)
         else:
-            scene = trimesh.load_scene(
-                io.BytesIO(_decodable(data, kind)), file_type=kind, process=False, **options
-            )
+            scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False)
     except ImportError as error:
         if kind not in NEEDS:
             raise _unreadable(who, error) from error
@@ -156,27 +176,6 @@ def _unzipped(data: bytes, who: str):
     if not out:
         raise BodyError(f"{who}: the archive holds no mesh file. {REMEDY}")
     return out
-
-
-def _decodable(data: bytes, kind: str) -> bytes:
-    """Bytes that trimesh can decode: comments and names in Latin-1 or UTF-16 stop no reading."""
-    if kind == "ply":
-        head, mark, body = data.partition(b"end_header")
-        return bytes(b if b < 128 else 63 for b in head) + mark + body
-    if kind not in ("obj", "off", "stl"):
-        return data
-    if (
-        kind == "stl"
-        and len(data) >= 84
-        and len(data) == 84 + 50 * int.from_bytes(data[80:84], "little")
-    ):
-        return bytes(80) + data[80:]
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return data.decode("utf-16", errors="replace").encode()
-    try:
-        return data.decode("utf-8-sig").encode()
-    except UnicodeDecodeError:
-        return data.decode("latin-1").encode()
 
 
 def _require_known(kind: str, who: str) -> None:

@@ -109,6 +109,8 @@ def _crossed(corners, p, d, normal):
     if height == 0:
         if any(s == 0 for s in sides):
             raise Unclear("the point is on an edge")
+        if normal is not None and any(_cross(area, normal)):
+            raise Unclear("the point is on a face that crosses")
         return 0, 1 if normal is None or _dot(area, normal) > 0 else -1
     up = sides[0] > 0
     return ((1 if up else -1) if up == (height > 0) else 0), 0

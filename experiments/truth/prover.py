@@ -39,6 +39,9 @@ def _prove(query: Query) -> Truth:
             found = _native.instant(pair, a, b, 0.0, EFFORT, seeds)
         else:
             found = _native.sweep(pair, a, b, EFFORT, seeds)
+            if found["label"] == "hit" and found["start"] == "clear" and found["t_lo"] == 0:
+                # Apart by so little that no segment of time was gained: the planes of the start.
+                found = {**found, "tree": _native.instant(pair, a, b, 0.0, EFFORT, seeds)["tree"]}
         stuck = [at for at in found["stuck"] if at not in planes] if pieces and not found["spent"] else []
         new = {at: p for at in stuck if (p := plane(query, *at)) is not None} if len(stuck) <= TOUCHING else {}
         if found["label"] != "uncertain" or not new:

@@ -1,7 +1,8 @@
 """Planes and common points of convex pieces that touch, in rationals: what no rounded search can propose.
 
-Two pieces whose interiors are disjoint have a plane between them that passes through vertices of both. A linear program finds
-it roughly, the vertices that lie on it are read off, and the plane through exactly those is computed in rationals.
+Two pieces whose interiors are disjoint have a plane between them; cone.py finds it in whole numbers. Where they turn it must
+hold for some time: a linear program finds such a plane roughly, the vertices that lie on it are read off, and the plane through
+exactly those is computed in rationals.
 """
 
 from __future__ import annotations
@@ -17,7 +18,9 @@ from ofg import Query
 
 from .balls import BITS, add, cross, dot, mul, nearest_double, rational, vector
 from .checker import FRAMES, Apart, Refused, apart
+from .cone import separating
 from .geometry import Pair
+from .meet import meeting
 
 ON_PLANE = (1e-13, 1e-10, 1e-7)  # of the size: how near a vertex is to the plane that is taken to lie on it
 SPANS = tuple(10.0**-k for k in range(10))  # of the step: how long a plane through touching pieces that turn is tried to hold
@@ -55,10 +58,10 @@ def plane(query: Query, i: int, j: int) -> Plane | None:
         if p.turns:
             return _turning(p)
         if any(p.d):
-            if n := _between(p.swept(), p.B):
+            if n := separating(p.swept(), p.B):
                 return Plane(n, "W", 1.0)
-        n = _between(p.A, p.B)
-        return n and Plane(n, "W", 0.0)
+        n = separating(p.A, p.B)
+        return n and Plane(n, "W", 0.0 if any(p.d) else 1.0)
 
 
 def witness(query: Query, i: int, j: int, found: Plane) -> dict | None:
@@ -70,7 +73,8 @@ def witness(query: Query, i: int, j: int, found: Plane) -> dict | None:
         ids_a, ids_b = _on(X, found.n, max), _on(p.B, found.n, min)
         if dot(found.n, X[ids_a[0]]) != dot(found.n, p.B[ids_b[0]]):
             return None
-        weights = _meeting([X[k] for k in ids_a], [p.B[k] for k in ids_b])
+        on_a, on_b = [X[k] for k in ids_a], [p.B[k] for k in ids_b]
+        weights = _meeting(on_a, on_b) or meeting(on_a, on_b, found.n)
         if weights is None:
             return None
         wa, wb = weights
@@ -92,7 +96,7 @@ def _weights(piece, pairs) -> dict:
 
 
 def _turning(p: Pieces) -> Plane | None:
-    at_rest = _between(p.A, p.B)
+    at_rest = separating(p.A, p.B)
     if at_rest is None:
         return None
     a, b = p.query.motion, p.query.motion_b
@@ -112,7 +116,7 @@ def _turning(p: Pieces) -> Plane | None:
     return Plane(at_rest, "W", 0.0)
 
 
-def _between(A: list, B: list, later_a=np.empty((0, 3)), later_b=np.empty((0, 3))) -> list | None:
+def _between(A: list, B: list, later_a, later_b) -> list | None:
     """n with n.a <= n.b for all exact points, and about so for the later ones (doubles); None if none is found."""
     a, b = (np.array([[nearest_double(c) for c in v] for v in side]) for side in (A, B))
     rough = _rough(np.concatenate([a, later_a]), np.concatenate([b, later_b]))
@@ -177,7 +181,8 @@ def _through(rough: np.ndarray, on_a: list, on_b: list, touching: bool) -> list 
 
 def _on(points: list, n: list, extreme) -> list[int]:
     keys = [dot(n, x) for x in points]
-    return [k for k, key in enumerate(keys) if key == extreme(keys)]
+    most = extreme(keys)
+    return [k for k, key in enumerate(keys) if key == most]
 
 
 def _meeting(A: list, B: list) -> tuple[list, list] | None:

@@ -307,3 +307,13 @@ def test_shells_that_touch_along_an_edge_are_apart_and_those_that_need_each_othe
     assert surface.shells(f).tolist() == [0] * 12 + [1] * 12 and surface.patches(f).max() == 1
     v, f = surface.merged(*joined(CUBE, CUBE + [2, 0, 0]))
     assert surface.shells(surface.settled(v, f)[1]).max() == 0
+
+
+def test_a_cavity_through_two_touching_shells_is_one():
+    """The middle of one of its faces lies on the plane in which the shells touch."""
+    corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    hull = Body.convex(corners)
+    boxes = [((0, 1, 0), (4, 3, 2)), ((2, 2, 1), (3, 5, 2)), ((2, 3, 1), (6, 7, 3))]
+    v = np.concatenate([hull.vertices * np.subtract(high, low) + low for low, high in boxes])
+    f = [hull.faces, hull.faces[:, ::-1] + 8, hull.faces + 16]
+    assert Body.mesh(v, np.concatenate(f)).volume == pytest.approx(16 + 32 - 3, rel=1e-12)
