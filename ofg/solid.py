@@ -140,7 +140,8 @@ def welded(v: np.ndarray, f: np.ndarray, length: float, who: str) -> tuple[np.nd
         fine = False
     if not fine:
         raise BodyError(
-            f"{who}: weld = {checks.shown(length)}; give a length of 0 or more in the mesh's own unit."
+            f"{who}: weld = {checks.shown(length)}; give a length of 0 or more in the mesh's own"
+            " unit."
         )
     if length == 0:
         return v, f
