@@ -71,6 +71,14 @@ def body_of(row) -> Body:
     return Body._of("union", v, f, pieces, row.name)
 
 
+def _certificate(text: str):
+    """The stored certificate; the text itself where it is no JSON, which the checker refuses."""
+    try:
+        return json.loads(text)
+    except ValueError:
+        return text
+
+
 def cases_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> Iterable[tuple[Case, Truth]]:
     """Cases and truths in the order of the rows; equal bodies are one object."""
     made = {row.body: body_of(row) for row in bodies.itertuples()}
@@ -79,7 +87,7 @@ def cases_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> Iterable[tuple[Case, 
                       Pose(row.quaternion_b, row.position_b), Motion(row.displacement, row.axis, row.angle, row.about),
                       Motion(row.displacement_b, row.axis_b, row.angle_b, row.about_b))
         truth = Truth(row.label, row.t_lo, row.t_hi, row.start, row.end, row.gap, row.reason,
-                      json.loads(row.certificate), bool(row.touching))
+                      _certificate(row.certificate), bool(row.touching))
         tags = json.loads(row.tags)
         case = Case(row.case, row.scenario, row.level, row.index, query, tags, row.precision)
         yield case, truth

@@ -82,10 +82,10 @@ def _all_of(values: Any, kind: type, name: str) -> list:
     try:
         values = list(values)
     except TypeError:
-        raise TypeError(f"{name} is {values!r}; {give}.") from None
+        raise TypeError(f"{name} is {checks.shown(values)}; {give}.") from None
     wrong = next((v for v in values if not isinstance(v, kind)), None)
     if any(not isinstance(v, kind) for v in values):
-        raise TypeError(f"{name} holds {wrong!r}; {give}.")
+        raise TypeError(f"{name} holds {checks.shown(wrong)}; {give}.")
     return values
 
 

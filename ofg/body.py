@@ -10,7 +10,7 @@ import numpy as np
 import trimesh
 from scipy.spatial import ConvexHull, QhullError
 
-from . import exact, meshfile, solid, surface, volume, winding
+from . import checks, exact, meshfile, solid, surface, volume, winding
 from .solid import BodyError, BodyWarning
 
 __all__ = ["Body", "BodyError", "BodyWarning"]
@@ -95,8 +95,9 @@ class Body:
         split: keep objects and shells apart, as the convex pieces of a union; BodyError if one is
         concave or a cavity. weld: first merge vertices up to this length apart. Else as Body.mesh.
         """
-        given = getattr(mesh, "metadata", None) or {}
-        name = name or given.get("name") or "trimesh"
+        given = (getattr(mesh, "metadata", None) or {}).get("name")
+        if name is None:
+            name = given if isinstance(given, str) and given else "trimesh"
         who = f"Body '{name}'"
         return cls._from_parts(meshfile.parts_of(mesh, who), name, who, split, weld)
 
@@ -118,7 +119,7 @@ class Body:
         path = meshfile.path_of(path)
         return cls._from_parts(
             meshfile.read(path, most),
-            name or meshfile.name_of(path),
+            meshfile.name_of(path) if name is None else name,
             f"Mesh file {path}",
             split,
             weld,
@@ -126,6 +127,7 @@ class Body:
 
     @classmethod
     def _from_parts(cls, parts, name, who, split, weld) -> "Body":
+        split = checks.truth("split", split)
         parts = [(solid.points(v, who, 1), f) for v, f in parts]
         parts = [solid.welded(v, solid.triangles(f, len(v), who), weld, who) for v, f in parts]
         first = np.cumsum([0] + [len(v) for v, _ in parts])
@@ -183,7 +185,7 @@ class Body:
         )
         vertices.setflags(write=False)
         faces.setflags(write=False)
-        body = cls(kind, vertices, faces, pieces, name)
+        body = cls(kind, vertices, faces, pieces, checks.word(name, "name"))
         if kind == "convex":
             object.__setattr__(body, "pieces", (body,))
         return body

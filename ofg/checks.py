@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from numbers import Real
 from typing import Any, Sequence
 
 import numpy as np
@@ -61,9 +62,9 @@ def motion(value: Any, name: str) -> Any:
 def vector(value: Any, size: int, name: str) -> np.ndarray:
     """(size,) float64, finite, that nobody can write to. TypeError or ValueError if not."""
     try:
-        v = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} must hold {size} numbers, but is {value!r}.") from None
+        v = reals(value)
+    except TypeError:
+        raise TypeError(f"{name} must hold {size} numbers, but is {shown(value)}.") from None
     if v.shape != (size,):
         raise ValueError(f"{name} must have shape ({size},), not {v.shape}.")
     if not np.isfinite(v).all():
@@ -75,12 +76,62 @@ def vector(value: Any, size: int, name: str) -> np.ndarray:
     return v
 
 
+def reals(value: Any) -> np.ndarray:
+    """A new array of doubles. TypeError for what holds anything but real numbers: words and truth
+    values would be taken for them. Numbers too large for a double are infinite."""
+    try:
+        a = np.array(value)
+    except ValueError as error:
+        raise TypeError(str(error)) from None
+    if a.dtype == object:
+        if not all(isinstance(x, Real) and not isinstance(x, bool) for x in a.flat):
+            raise TypeError("not all are numbers")
+        return np.array([_double(x) for x in a.flat]).reshape(a.shape)
+    if a.dtype.kind not in "fiu" and a.size:
+        raise TypeError(f"{a.dtype} is no type of real numbers")
+    return a.astype(np.float64)
+
+
+def _double(x: Real) -> float:
+    try:
+        return float(x)
+    except OverflowError:
+        return np.inf if x > 0 else -np.inf
+
+
+def shown(value: Any) -> str:
+    """A value in an error message: one line, and not a long one."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 80 else f"{text[:60]}..., a {type(value).__name__}"
+
+
+def word(value: Any, name: str) -> str:
+    """A str. TypeError for anything else."""
+    if isinstance(value, str):
+        return value
+    raise TypeError(f"{name} = {shown(value)} must be a word.")
+
+
+def points(value: Any, name: str) -> np.ndarray:
+    """(n, 3) or (3,) float64. TypeError or ValueError if not."""
+    try:
+        v = reals(value)
+    except TypeError:
+        raise TypeError(f"{name} must hold numbers, but is {shown(value)}.") from None
+    if v.ndim not in (1, 2) or v.shape[-1] != 3:
+        raise ValueError(f"{name} must have shape (n, 3), not {v.shape}.")
+    return v
+
+
 def number(value: Any, name: str) -> float:
     """A finite float. TypeError or ValueError if not."""
     try:
-        x = float(value)
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} must be a number, but is {value!r}.") from None
+        x = reals(value)
+    except TypeError:
+        x = np.empty(1)
+    if x.ndim:
+        raise TypeError(f"{name} must be a number, but is {shown(value)}.")
+    x = float(x)
     if not np.isfinite(x):
         raise ValueError(f"{name} = {x} is not finite.")
     return x
@@ -132,7 +183,9 @@ def whole(name: str, value: Any, least: int, most: int = 2**31 - 1) -> int:
     except (TypeError, ValueError, OverflowError):
         fits = False
     if not fits or not least <= value <= most:
-        raise ValueError(f"{name} = {value!r} must be a whole number from {least} to {most}.")
+        raise ValueError(
+            f"{name} = {shown(value)} must be a whole number from {least} to {most}."
+        )
     return int(value)
 
 
@@ -140,11 +193,11 @@ def truth(name: str, value: Any) -> bool:
     """A bool. TypeError for anything else: the word "False" would count as true."""
     if isinstance(value, (bool, np.bool_)):
         return bool(value)
-    raise TypeError(f"{name} = {value!r} must be True or False.")
+    raise TypeError(f"{name} = {shown(value)} must be True or False.")
 
 
 def one_of(name: str, value: Any, known: Sequence[str]) -> int:
     """The place of a word among those known. ValueError if it is not there."""
     if not isinstance(value, str) or value not in known:
-        raise ValueError(f"{name} = {value!r} is unknown; use one of {', '.join(known)}.")
+        raise ValueError(f"{name} = {shown(value)} is unknown; use one of {', '.join(known)}.")
     return list(known).index(value)

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import platformdirs
 
-from . import exact, surface, winding
+from . import checks, exact, surface, winding
 from .body import Body, BodyError
 
 SECONDS = 300.0  #: that CoACD may take; most bodies need less than ten
@@ -45,6 +45,11 @@ def decompose(
     Source: Wei et al., "Approximate convex decomposition for 3D meshes with collision-aware
     concavity and tree search", SIGGRAPH 2022.
     """
+    checks.body(body, "body")
+    threshold = checks.number(threshold, "threshold")
+    seconds = checks.number(seconds, "seconds")
+    max_pieces = checks.whole("max_pieces", max_pieces, -1)
+    seed, thin = checks.whole("seed", seed, 0), checks.whole("thin", thin, 0)
     if body.kind != "mesh":
         return body
     if not 0.01 <= threshold <= 1:

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-from . import plainfile
+from . import checks, plainfile
 from .solid import BodyError
 
 MOST_BYTES = 512 * 2**20  #: of a file when unpacked: some ten million triangles in a binary STL
@@ -49,6 +49,7 @@ def read(path: Path, most: int = MOST_BYTES) -> list[tuple[np.ndarray, np.ndarra
     most: bytes the file may have when unpacked. BodyError for what cannot be read.
     """
     who = f"Mesh file {path}"
+    most = checks.whole("most", most, 1, 2**63 - 1)
     if path.is_dir():
         raise BodyError(f"{who} is a folder; give the path of a mesh file. {REMEDY}")
     if not path.is_file():

@@ -73,6 +73,7 @@ class Motion:
     def pose_at(self, start: Pose, t: float) -> Pose:
         """The pose at time t of a body that starts at `start` (double rounding)."""
         checks.pose(start, "start")
+        t = checks.number(t, "t")
         position = start.position + t * self.displacement
         if not self.angle:
             return Pose(start.quaternion, position)

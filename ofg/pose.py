@@ -55,7 +55,7 @@ class Pose:
 
     def apply(self, points: np.ndarray) -> np.ndarray:
         """(n, 3) body points -> (n, 3) world points."""
-        return np.asarray(points, float) @ self.rotation.T + self.position
+        return checks.points(points, "points") @ self.rotation.T + self.position
 
 
 def near_one(v: np.ndarray) -> np.ndarray:

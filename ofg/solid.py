@@ -7,7 +7,7 @@ import warnings
 import numpy as np
 from scipy.spatial import cKDTree
 
-from . import exact, surface, winding
+from . import checks, exact, surface, winding
 
 BLOCK = 64  #: neighbouring vertices that are compared with a plane together
 ASKED = 64  #: faces of an inverted shell at which it is asked what the other shells are around it
@@ -24,10 +24,8 @@ class BodyWarning(UserWarning):
 def points(vertices, who: str, least: int = 4) -> np.ndarray:
     """(n, 3) finite doubles, or BodyError."""
     try:
-        if np.iscomplexobj(vertices):
-            raise TypeError("complex numbers")
-        v = np.asarray(vertices, np.float64)
-    except (TypeError, ValueError) as error:
+        v = checks.reals(vertices)
+    except TypeError as error:
         raise BodyError(
             f"{who}: vertices are no array of numbers ({error}); give at least four points as an"
             " (n, 3) array."
@@ -137,12 +135,13 @@ def welded(v: np.ndarray, f: np.ndarray, length: float, who: str) -> tuple[np.nd
     """Vertices closer than `length` made one, at the place of the first. BodyError where chains of
     such vertices would move one by more than twice the length."""
     try:
-        fine = np.isfinite(length) and length >= 0
-    except TypeError:
+        fine = checks.number(length, "weld") >= 0
+    except (TypeError, ValueError):
         fine = False
     if not fine:
         raise BodyError(
-            f"{who}: weld = {length!r}; give a length of 0 or more in the mesh's own unit."
+            f"{who}: weld = {checks.shown(length)}; give a length of 0 or more in the mesh's own"
+            " unit."
         )
     if length == 0:
         return v, f

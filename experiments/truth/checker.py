@@ -336,6 +336,7 @@ def common_point(pair, cert, t):
         (cert["a"], pair.a, X.RA, X.about_a, -1),
         (cert["b"], pair.b, X.RB, X.about_b, 1),
     ):
+        require(side["piece"] >= 0, "a piece is counted from 0")
         weights, ids, piece = [number(w) for w in side["weights"]], side["vertices"], body.pieces[side["piece"]]
         require(len(weights) == len(ids) and min(weights) >= 0 and sum(weights) == 1 and min(ids) >= 0, "the weights are not convex")
         for w, i in zip(weights, ids):

@@ -17,35 +17,51 @@ from .balls import cross, dot
 ROUNDS = 400  #: cuts before giving up; some twenty do
 
 
-def separating(A: list, B: list) -> list | None:
-    """n with n.a <= n.b for all points (rationals); whole numbers. None if there is none."""
-    common = lcm(*(int(c.q) for side in (A, B) for x in side for c in x))
-    A, B = ([[int(c.p) * (common // int(c.q)) for c in x] for x in side] for side in (A, B))
+def separating(*pairs: tuple[list, list]) -> list | None:
+    """n with n.a <= n.b for all points of A and B, in each pair (A, B); whole numbers. None if none.
+
+    Points are rationals. Pairs beyond the first are such as the same two sets at another time.
+    """
+    common = lcm(*{int(c.q) for pair in pairs for side in pair for x in side for c in x})
+    pairs = tuple(tuple(_whole(side, common) for side in pair) for pair in pairs)
+    A, B = (rows for rows, _ in pairs[0])
     middle = [len(A) * sum(y) - len(B) * sum(x) for x, y in zip(zip(*A), zip(*B))]
     if not any(middle):
         return None
-    sides = (A, fmpz_mat(A)), (B, fmpz_mat(B))
     for cone in _quarters(_reduced(middle)):
-        if n := _within(cone, *sides):
+        if n := _within(cone, pairs):
             return n
     return None
 
 
-def _within(cone: list, side_a, side_b) -> list | None:
+def _whole(points: list, common: int) -> tuple[list, fmpz_mat]:
+    rows = [[int(c.p) * (common // int(c.q)) for c in x] for x in points]
+    return rows, fmpz_mat(rows)
+
+
+def _within(cone: list, pairs) -> list | None:
     """A separating normal in a cone; None if it holds none."""
-    (A, rows_a), (B, rows_b) = side_a, side_b
     for _ in range(ROUNDS):
         if not cone:
             return None
         n = _amid(cone)
-        column = fmpz_mat([[c] for c in n])
-        tops, lows = (rows_a * column).entries(), (rows_b * column).entries()
-        top, low = max(tops), min(lows)
-        if top <= low:
+        against = [c for pair in pairs if (c := _refuting(n, pair))]
+        if not against:
             return n
-        a, b = A[tops.index(top)], B[lows.index(low)]
-        cone = _cut(cone, [y - x for x, y in zip(a, b)])
+        for c in against:
+            cone = _cut(cone, c)
     return None
+
+
+def _refuting(n: list, pair) -> list | None:
+    """The difference b - a of the vertices that reach farthest over a plane, if they do."""
+    (A, rows_a), (B, rows_b) = pair
+    column = fmpz_mat([[c] for c in n])
+    tops, lows = (rows_a * column).entries(), (rows_b * column).entries()
+    top, low = max(tops), min(lows)
+    if top <= low:
+        return None
+    return [y - x for x, y in zip(A[tops.index(top)], B[lows.index(low)])]
 
 
 def _quarters(c: list) -> list[list]:

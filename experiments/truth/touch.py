@@ -1,8 +1,7 @@
 """Planes and common points of convex pieces that touch, in rationals: what no rounded search can propose.
 
 Two pieces whose interiors are disjoint have a plane between them; cone.py finds it in whole numbers. Where they turn it must
-hold for some time: a linear program finds such a plane roughly, the vertices that lie on it are read off, and the plane through
-exactly those is computed in rationals.
+hold for some time, so a plane is sought that parts them at a later instant too.
 """
 
 from __future__ import annotations
@@ -16,14 +15,13 @@ from scipy.optimize import linprog
 
 from ofg import Query
 
-from .balls import BITS, add, cross, dot, mul, nearest_double, rational, vector
+from .balls import BITS, add, dot, mul, nearest_double, rational, vector
 from .checker import FRAMES, Apart, Refused, apart
 from .cone import separating
 from .geometry import Pair
 from .meet import meeting
 
-ON_PLANE = (1e-13, 1e-10, 1e-7)  # of the size: how near a vertex is to the plane that is taken to lie on it
-SPANS = tuple(10.0**-k for k in range(10))  # of the step: how long a plane through touching pieces that turn is tried to hold
+SPANS = tuple(10.0**-k for k in range(10))  #: of the step: how long a plane is tried to hold
 
 
 @dataclass(frozen=True)
@@ -50,6 +48,26 @@ class Pieces:
         """A's vertices at t = 0 and at t = 1, where nothing turns: the hull of what A sweeps, as seen from B."""
         return self.A + [add(x, self.d) for x in self.A]
 
+    def later(self, t) -> tuple[list, list]:
+        """Both pieces' vertices at another time."""
+        X, pair = self.pair.exact, self.pair
+        a = [add(pair.turn_a(t, x), self.d, t) for x in self.A]
+        return a, [add(pair.turn_b(t, add(y, X.dp, -1)), X.dp) for y in self.B]
+
+    def back(self, frame: str, t, x: list) -> list:
+        """A later point as a plane of a frame sees it that is kept as it is at the start."""
+        turn = {"A": self.pair.turn_a, "B": self.pair.turn_b}.get(frame)
+        return [_middle(c) for c in (turn(-rational(t), x) if turn else x)]
+
+
+def _middle(c) -> fmpq:
+    """A rational, or the middle of a ball."""
+    if isinstance(c, fmpq):
+        return c
+    mantissa, exponent = c.mid().man_exp()
+    mantissa, exponent = int(mantissa), int(exponent)
+    return fmpq(mantissa << max(exponent, 0), 1 << max(-exponent, 0))
+
 
 def plane(query: Query, i: int, j: int) -> Plane | None:
     """A plane between piece i of A and piece j of B, which touch or nearly do, over as much of the step as can be shown."""
@@ -58,9 +76,9 @@ def plane(query: Query, i: int, j: int) -> Plane | None:
         if p.turns:
             return _turning(p)
         if any(p.d):
-            if n := separating(p.swept(), p.B):
+            if n := separating((p.swept(), p.B)):
                 return Plane(n, "W", 1.0)
-        n = separating(p.A, p.B)
+        n = separating((p.A, p.B))
         return n and Plane(n, "W", 0.0 if any(p.d) else 1.0)
 
 
@@ -96,87 +114,26 @@ def _weights(piece, pairs) -> dict:
 
 
 def _turning(p: Pieces) -> Plane | None:
-    at_rest = separating(p.A, p.B)
+    """The plane that can be shown to hold longest, in the first frame in which one can."""
+    at_rest = separating((p.A, p.B))
     if at_rest is None:
         return None
-    a, b = p.query.motion, p.query.motion_b
     for end in SPANS:
-        later = [
-            pose.apply(body.vertices) - p.query.pose_a.position - end * b.displacement
-            for pose, body in ((a.pose_at(p.query.pose_a, end), p.a), (b.pose_at(p.query.pose_b, end), p.b))
-        ]
-        origin = p.query.pose_a.rotation @ np.array(p.pair.about_a)
-        n = _between(p.A, p.B, *(points - origin for points in later))
-        for frame in FRAMES if n else ():
-            try:
-                apart(Apart(p.pair, p.a.vertices, p.b.vertices, 0.0, end, frame, n, 0.0, True))
-                return Plane(n, frame, end)
-            except Refused:
-                pass
+        later = p.later(rational(end))
+        for frame in FRAMES:
+            sides = tuple([p.back(frame, end, x) for x in side] for side in later)
+            for n in (at_rest, separating((p.A, p.B), sides)):
+                if n and _holds(p, n, frame, end):
+                    return Plane(n, frame, end)
     return Plane(at_rest, "W", 0.0)
 
 
-def _between(A: list, B: list, later_a, later_b) -> list | None:
-    """n with n.a <= n.b for all exact points, and about so for the later ones (doubles); None if none is found."""
-    a, b = (np.array([[nearest_double(c) for c in v] for v in side]) for side in (A, B))
-    rough = _rough(np.concatenate([a, later_a]), np.concatenate([b, later_b]))
-    if rough is None:
-        return None
-    size = np.ptp(np.concatenate([a, b]), axis=0).max()
-    tops, lows = a @ rough, b @ rough
-    for tolerance in ON_PLANE:
-        on_a = [A[k] for k in np.flatnonzero(tops >= tops.max() - tolerance * size)]
-        on_b = [B[k] for k in np.flatnonzero(lows <= lows.min() + tolerance * size)]
-        touching = lows.min() - tops.max() <= tolerance * size
-        n = _through(rough, on_a, on_b, touching)
-        if n is not None and max(dot(n, x) for x in A) <= min(dot(n, y) for y in B):
-            return n
-    return None
-
-
-def _rough(a: np.ndarray, b: np.ndarray) -> np.ndarray | None:
-    """The widest separating plane's normal, in doubles; where planes through touching points are many, one amid them."""
-    centre, size = a.mean(axis=0), np.ptp(np.concatenate([a, b]), axis=0).max()
-    a, b = (a - centre) / size, (b - centre) / size
-    # Variables n, offset o, gap g: n.b - o >= g and o - n.a >= g. One component of n is 1 or -1, so that n is not 0.
-    rows = np.concatenate([np.c_[-b, np.ones(len(b)), np.ones(len(b))], np.c_[a, -np.ones(len(a)), np.ones(len(a))]])
-    found = []
-    for k in range(3):
-        for side in (-1.0, 1.0):
-            bounds = [(side, side) if c == k else (-1, 1) for c in range(3)] + [(None, None)] * 2
-            r = linprog([0, 0, 0, 0, -1], A_ub=rows, b_ub=np.zeros(len(rows)), bounds=bounds, method="highs")
-            if r.status == 0:
-                found.append((r.x[4], r.x[:3]))
-    best = max((g for g, _ in found), default=-1.0)
-    if best < -1e-6:
-        return None
-    return np.sum([n / np.linalg.norm(n) for g, n in found if g > best - 1e-9], axis=0)
-
-
-def _through(rough: np.ndarray, on_a: list, on_b: list, touching: bool) -> list | None:
-    """The exact normal nearest to `rough` of a plane through the points of A and parallel through those of B; one if touching."""
-    directions = [add(x, on_a[0], -1) for x in on_a[1:]] + [add(y, on_b[0], -1) for y in on_b[1:]]
-    if touching:
-        directions.append(add(on_b[0], on_a[0], -1))
-    basis = []
-    n = [rational(c) for c in rough]
-    for u in directions:
-        if not any(u):
-            continue
-        if not basis:
-            basis.append(u)
-        elif len(basis) == 1:
-            if any(cross(basis[0], u)):
-                basis.append(u)
-        elif dot(cross(*basis), u):
-            return None
-    if len(basis) == 1:
-        u = basis[0]
-        n = add(n, u, -dot(n, u) / dot(u, u))
-    if len(basis) == 2:
-        across = cross(*basis)
-        n = across if dot(across, n) > 0 else [-c for c in across]
-    return n if any(n) else None
+def _holds(p: Pieces, n: list, frame: str, end: float) -> bool:
+    try:
+        apart(Apart(p.pair, p.a.vertices, p.b.vertices, 0.0, end, frame, n, 0.0, True))
+        return True
+    except Refused:
+        return False
 
 
 def _on(points: list, n: list, extreme) -> list[int]:

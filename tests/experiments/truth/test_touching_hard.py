@@ -56,3 +56,39 @@ def test_bodies_a_hair_apart_that_move_in_at_once_are_a_hit_from_a_clear_start()
     truth = label(query)
     assert (truth.label, truth.start, truth.t_lo) == ("hit", "clear", 0)
     assert truth.t_hi < 1e-12 and check(query, truth).ok
+
+
+def corner(base, *sides) -> np.ndarray:
+    """A point and those that are reached from it along each axis."""
+    return np.array([base, *(np.add(base, s) for s in np.diag(sides))], float)
+
+
+TURNING = {  # (A, its turn, its motion), (B, its turn), all at the origin and in exact touch
+    "a corner on a face": (
+        (corner((0, 0, 0), 336, 192, 240), (1, -1, 0, 0)),
+        (CORNERS * [48, 336, 336] + [116, -56, 88], (-1, 0, -2, -1)),
+        Motion(axis=(0.371, 0.342, -1.244), angle=0.108),
+    ),
+    "while it recedes": (
+        (CORNERS * [8320, 1040, 5200], (2, -1, -2, 2)),
+        (corner((-6816, -240, -832), 6240, 6240, 6240), (0, -1, 0, -2)),
+        Motion((-6941, -1095, -19438), (0.454, 0.916, -0.568), 0.307, (8320, 1040, 0)),
+    ),
+    "about an edge": (
+        (CORNERS * [234, 156, 624], (-1, -2, -2, -2)),
+        (corner((652, 208, -224), 78, 312, 234), (-1, 2, 1, 0)),
+        Motion((-89, 60, 78), (-0.096, -1.103, -2.26), 0.385, (0, 0, 624)),
+    ),
+}
+
+
+@pytest.mark.parametrize("case", TURNING)
+def test_bodies_that_touch_and_turn_away_are_clear_from_both_sides(case):
+    """Their labels were uncertain from one side: rounding decided which plane was tried."""
+    (a, turn_a), (b, turn_b), motion = TURNING[case]
+    poses = Pose(turn_a), Pose(turn_b)
+    query = Query("motion", Body.convex(a, "a"), Body.convex(b, "b"), *poses, motion)
+    for asked in (query, query.swapped()):
+        truth = label(asked)
+        assert (truth.label, truth.touching, truth.reason) == ("clear", True, "")
+        assert check(asked, truth).ok

@@ -9,7 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from experiments.truth import Truth, label_many, verify
+from experiments.rows import _certificate
+from experiments.truth import Truth, label, label_many, verify
+from ofg import Body, Pose, Query
 
 from .draw import composite_query, convex_query
 
@@ -58,3 +60,15 @@ engines = {"fcl", "pybullet", "mujoco", "scipy", "trimesh", "ofg._core", "ofg"} 
 assert not engines, engines
 """
     subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
+
+
+def test_a_witness_counts_pieces_from_0_and_what_is_no_certificate_is_refused():
+    cube = Body.convex([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+    query = Query("overlap", cube, cube, Pose(), Pose(position=(1, 0, 0)))
+    truth = label(query)
+    back = json.loads(json.dumps(truth.certificate))
+    back["touching"]["a"]["piece"] = -1
+    forged = [replace(truth, certificate=c) for c in (truth.certificate, back, "{", "", 5, None)]
+    result = verify((query, t) for t in forged)
+    assert [i for i, _, _ in result.refused] == [1, 2, 3, 4, 5]
+    assert [_certificate(text) for text in ("{", '{"a": 1}')] == ["{", {"a": 1}]
