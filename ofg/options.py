@@ -42,7 +42,7 @@ def repair_options(repairs: str) -> dict[str, Any]:
     """
     if not isinstance(repairs, str):
         raise TypeError(
-            f"repairs = {repairs!r} must be a word; join several repairs with +, as in "
+            f"repairs = {checks.shown(repairs)} must be a word; join several repairs with +, as in "
             "'arcs+containment'."
         )
     if repairs == "none":
