@@ -140,7 +140,8 @@ def paired_ratios(store: Store, reference: str) -> pd.DataFrame:
 
 
 def case_costs(store: Store) -> pd.DataFrame:
-    """A row per timed case and method: ns (median over rounds), floor of its bin, net = ns - floor or 0, build_ns.
+    """A row per timed case and method: ns (median over rounds), floor of its bin, net = ns - floor
+    or 0, build_ns.
 
     noise: of the floor, the interquartile range of all its rounds in the bin.
     """

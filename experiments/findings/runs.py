@@ -199,6 +199,29 @@ def times_more(r) -> str:
     return NOISY if np.isnan(r.ratio) else f"{interval(r)}, n={r.pairs}"
 
 
+def share_of(flags: pd.Series) -> Rate:
+    """How many of all are so. Missing if there are none."""
+    if flags.empty:
+        raise Missing("no such rows")
+    count = int(flags.sum())
+    return Rate(count, len(flags), *metrics.wilson(count, len(flags)))
+
+
+def worst_families(found: pd.DataFrame, method: str, kind: str = "misses", n: int = 2) -> str:
+    """The families with a method's highest rates, of those where it has any count."""
+    each = by_family(found, method, kind)
+    some = [name for name in each if each[name].count]
+    worst = sorted(some, key=lambda name: each[name].count / each[name].total)[-n:]
+    return listed({name: each[name] for name in reversed(worst)}) or "no family"
+
+
+def by_family(found: pd.DataFrame, method: str, kind: str = "misses") -> dict[str, Rate]:
+    """A method's rate in each family that has such cases."""
+    label = "clear" if kind == "false alarms" else "hit"
+    such = rows(found, method=method, label=label, status="ok")
+    return {f"`{name}`": rate(part, kind) for name, part in such.groupby("scenario", sort=False)}
+
+
 def wrong_rate(part: pd.DataFrame) -> Rate:
     """Misses and false alarms of the certified cases answered."""
     counts = metrics.rates(part.assign(all=0), ["all"]).iloc[0]

@@ -26,8 +26,9 @@ N = 80  # cases of a kind: enough for a verdict
 class Fake(Runs):
     """Runs in memory with methods and families of the catalogue; N cases of each family, answered as told.
 
-    wrong(method, scenario, i): the answer is; late(method, i): its time is off by so much; slow(method, level): net time;
-    noise(method, level): of its floor; unknown: of the hits at an end, how many name no faces that meet.
+    wrong(method, scenario, i): the answer is; late(method, i): its time is off by so much;
+    slow(method, level): net time; noise(method, level): of its floor; unknown: of the hits at an
+    end, how many name no faces that meet.
     """
 
     def __init__(
@@ -143,8 +144,12 @@ class Fake(Runs):
 ASKED = {name: s.question for name, s in scenarios.scenarios().items()}
 
 
+def of(title: str, runs):
+    return finding(next(c for c in CLAIMS if c.title.startswith(title)), runs)
+
+
 def said(title: str, runs) -> str:
-    return finding(next(c for c in CLAIMS if c.title.startswith(title)), runs).verdict
+    return of(title, runs).verdict
 
 
 OF_MISSES = [  # the claim; whose answers decide it
@@ -210,7 +215,7 @@ def test_false_alarms_of_one_family_are_a_part():
 
 
 def test_it_says_which_bodies_the_repairs_were_asked_of():
-    text = finding(next(c for c in CLAIMS if c.title.startswith("With all repairs")), Fake()).text
+    text = of("With all repairs", Fake()).text
     assert "convex and mesh" in text
     assert all(c.name in text for c in config.load("repairs").scenarios)
 
@@ -277,15 +282,14 @@ def test_hits_at_an_end_are_no_estimates():
     late = lambda end: Fake(late=lambda method, i: end if i % 2 else 0.0)  # noqa: E731
     for title in ("Relative velocity", "Halving"):
         assert said(title, late(0.5)) == HOLDS and said(title, late(0.4999)) == PART
-    with_ends = finding(next(c for c in CLAIMS if c.title.startswith("Halving")), late(0.5)).number
     families = len(config.load("impact").scenarios)
-    assert f"n={families * N // 2}" in with_ends
+    assert f"n={families * N // 2}" in of("Halving", late(0.5)).number
 
 
 def test_hits_without_a_time_are_counted_and_shown():
     runs = Fake(late=lambda method, i: NEVER if i < N / 4 else 0.0)
     hits = len(config.load("impact").scenarios) * N
-    number = finding(next(c for c in CLAIMS if c.title.startswith("Halving")), runs).number
+    number = of("Halving", runs).number
     assert number.count(f"{hits // 4} of {hits} hits without a time") == 2
 
 
@@ -317,8 +321,8 @@ def test_cells_within_the_noise_decide_nothing():
 
     assert said("Cheaper", Fake(slow=slow)) == PART
     assert said("Cheaper", Fake(slow=slow, noise=noise)) == HOLDS
-    found = finding(next(c for c in CLAIMS if c.title.startswith("Cheaper")), Fake(slow=slow, noise=noise))
-    assert "2 of 2 cells" in found.number and "1 cells left out" in found.number
+    number = of("Cheaper", Fake(slow=slow, noise=noise)).number
+    assert "2 of 2 cells" in number and "left out: 1 of 3 cells" in number
     assert said("Cheaper", Fake(noise=lambda m, level: 2000.0)) == UNMEASURED
 
 
@@ -347,7 +351,11 @@ def bench(own: float, small: float, engines=ASKED_ENGINES) -> pd.DataFrame:
             {"cell": f"{f}-hull/gap", "method": m, "round": r, "nanoseconds": ns}
             for f, s in ((12, small), (320, 1.0))
             for r in range(3)
-            for m, ns in (("OFG double k=8 screened in batch", own), ("OFG double k=8", 50.0), *((e, 100 * s) for e in engines))
+            for m, ns in (
+                ("OFG double k=8 screened in batch", own),
+                ("OFG double k=8", 50.0),
+                *((e, 100 * s) for e in engines),
+            )
         ]
     )
 
@@ -362,8 +370,7 @@ def test_screened_in_batch():
 def test_an_engine_that_was_not_asked_leaves_a_part(engines):
     assert said("At small gaps", Fake(rows=bench(15, 1, engines))) == PART
     assert said("At small gaps", Fake(rows=bench(60, 1, engines))) == FAILS
-    number = finding(next(c for c in CLAIMS if c.title.startswith("At small")), Fake(rows=bench(15, 1, engines))).number
-    assert "Coal not asked" in number
+    assert "Coal not asked" in of("At small gaps", Fake(rows=bench(15, 1, engines))).number
 
 
 def test_the_fastest_of_all_engines_is_the_measure():
