@@ -286,6 +286,15 @@ def test_hits_at_an_end_are_no_estimates():
     assert f"n={families * N // 2}" in of("Halving", late(0.5)).number
 
 
+def test_an_estimate_that_comes_out_as_the_end_is_still_one():
+    def late(method, i):
+        return 0.5 * ("bisection" in method)
+
+    number = of("Halving", Fake(late=late)).number
+    hits = len(config.load("impact").scenarios) * N
+    assert number.count(f"n={hits}") == 2 and said("Halving", Fake(late=late)) == PART
+
+
 def test_hits_without_a_time_are_counted_and_shown():
     runs = Fake(late=lambda method, i: NEVER if i < N / 4 else 0.0)
     hits = len(config.load("impact").scenarios) * N

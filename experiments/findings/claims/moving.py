@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import numpy as np
 import pandas as pd
@@ -127,7 +128,8 @@ def start_spheres(runs: Runs):
 IMPACT = "impact/tables/impact-angle.md impact/tables/impact-turn.md impact/tables/impact-net.md"
 ESTIMATES = (
     "Estimates only: hits found whose step begins clear, but for those at an end. Rows do not"
-    " record what met; a time of exactly 0 or 1 of a method of ofg is taken for one at an end."
+    " record what met: where the time by relative velocity is exactly 0 or 1 the hit is taken for"
+    " one at an end, by every estimate of the same method."
     " Misses stand in impact/tables/impact-misses.md."
 )
 READINGS = {"the ends first": "", "his list of steps": " order=steps"}
@@ -136,8 +138,10 @@ WITHIN = f"95 % of the times within {LATE:g} of the step"
 
 def estimates(runs: Runs, method: str) -> pd.DataFrame:
     """Hits found that begin clear and are not found at an end: `error` is NaN without a time."""
-    hits = rows(runs.answers("impact"), method=method, outcome="right", label="hit", start="clear")
-    between = hits[~hits.time.isin([0.0, 1.0])]
+    found = rows(runs.answers("impact"), outcome="right", label="hit", start="clear")
+    hits = rows(found, method=method)
+    alike = rows(found, method=re.sub(r" toi=\S+", "", method))  # the same but for the estimate
+    between = hits[~hits.case.isin(alike.case[alike.time.isin([0.0, 1.0])])]
     if between.empty:
         raise Missing(f"no estimate of {method} in run impact")
     return between
