@@ -127,6 +127,12 @@ def steps(rows: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(table)
 
 
+def engines_of(methods) -> list[str]:
+    """The engines among methods: those of ENGINES first, then whatever else is not OFG."""
+    others = [m for m in methods if m not in ENGINES and not m.startswith("OFG")]
+    return [e for e in ENGINES if e in methods] + others
+
+
 def ratios(rows: pd.DataFrame, method: str) -> pd.DataFrame:
     """Median over rounds of `method` / engine within the round; `fastest` is against the engine with the least median in that cell."""
     table = []
@@ -134,7 +140,7 @@ def ratios(rows: pd.DataFrame, method: str) -> pd.DataFrame:
         own = own.pivot(index="round", columns="method", values="nanoseconds")
         if method not in own:  # all faces are asked of bodies up to 320 faces only
             continue
-        engines = [e for e in ENGINES if e in own]
+        engines = engines_of(list(own))
         quotient = {e: (own[method] / own[e]).median() for e in engines}
         fastest = min(engines, key=lambda e: own[e].median(), default=None)
         table.append(

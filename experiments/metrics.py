@@ -133,18 +133,35 @@ def costs(store: Store, by=("question", "faces", "situation")) -> pd.DataFrame:
 def paired_ratios(store: Store, reference: str) -> pd.DataFrame:
     """Net time of each method over that of `reference`, case by case on the cases both answered: median ratio, bootstrap interval.
 
-    Cases at which the reference's own net time is not above its floor have no ratio and are left out; `pairs` counts the rest.
+    Without the groups that have no ratio: see `ratios`.
     """
     bins = ["question", "faces", "situation"]
-    return ratios(case_costs(store), reference, bins)
+    return ratios(case_costs(store), reference, bins).dropna(subset=["ratio"])
 
 
 def case_costs(store: Store) -> pd.DataFrame:
-    """A row per timed case and method: ns (median over rounds), floor of its bin, net = ns - floor or 0, build_ns."""
-    bins = ["question", "faces", "situation"]
+    """A row per timed case and method: ns (median over rounds), floor of its bin, net = ns - floor
+    or 0, build_ns.
+
+    noise: of the floor, the interquartile range of all its rounds in the bin.
+    """
+    key = ["question", "faces", "situation", "method"]
     times = _timed(store)
-    floors = times[times.case == FLOOR].groupby([*bins, "method"]).ns.median().rename("floor")
-    return times[times.case != FLOOR].join(floors, on=[*bins, "method"]).assign(net=lambda t: (t.ns - t.floor).clip(lower=0))
+    floors = times[times.case == FLOOR].groupby(key)
+    floor = floors.agg(floor=("ns", "median"), noise=("rounds_ns", _spread))
+    found = times[times.case != FLOOR].join(floor, on=key)
+    return found.assign(net=lambda t: (t.ns - t.floor).clip(lower=0))
+
+
+def _spread(rounds: pd.Series) -> float:
+    low, high = np.percentile(np.concatenate(rounds.to_list()), [25, 75])
+    return float(high - low)
+
+
+def told(times: pd.DataFrame, side: str = "") -> pd.Series:
+    """Whether the net time of each row of case_costs can be told from none: it is above the noise
+    of the floor that was taken off."""
+    return times[f"net{side}"] > times[f"noise{side}"]
 
 
 def medians(values: pd.DataFrame, column: str, by: list[str]) -> pd.DataFrame:
@@ -158,14 +175,23 @@ def medians(values: pd.DataFrame, column: str, by: list[str]) -> pd.DataFrame:
 
 
 def ratios(times: pd.DataFrame, reference: str, by: list[str]) -> pd.DataFrame:
-    """`paired_ratios` of rows of case_costs, for each group of `by` and method."""
-    base = times[(times.method == reference) & (times.net > 0)][["case", "net"]]
-    rows = []
-    for key, group in times.merge(base, on="case", suffixes=("", "_reference")).groupby([*by, "method"], sort=False):
-        ratio = (group.net / group.net_reference).to_numpy()
-        low, high = _bootstrap(ratio)
-        rows.append({**dict(zip([*by, "method"], key)), "ratio": np.median(ratio), "low": low, "high": high, "pairs": len(ratio)})
-    return pd.DataFrame(rows, columns=[*by, "method", "ratio", "low", "high", "pairs"])
+    """`paired_ratios` of rows of case_costs, for each group of `by` and method.
+
+    Cases at which the reference's net time lies within the noise of its floor (see `told`) are no
+    denominators: `in_noise` counts them, `pairs` the rest. A group of which they are half or more
+    has no ratio (NaN), as its median would be of those that happened to take long.
+    """
+    base = times[times.method == reference][["case", "net", "noise"]]
+    both, rows = times.merge(base, on="case", suffixes=("", "_reference")), []
+    for key, group in both.groupby([*by, "method"], sort=False):
+        sure = group[told(group, "_reference")]
+        ratio = (sure.net / sure.net_reference).to_numpy()
+        enough = 2 * len(sure) > len(group)
+        low, high = _bootstrap(ratio) if enough else (np.nan, np.nan)
+        value = np.median(ratio) if enough else np.nan
+        counts = {"pairs": len(sure), "in_noise": len(group) - len(sure)}
+        rows.append(dict(zip([*by, "method"], key), ratio=value, low=low, high=high, **counts))
+    return pd.DataFrame(rows, columns=[*by, "method", "ratio", "low", "high", "pairs", "in_noise"])
 
 
 def _timed(store: Store) -> pd.DataFrame:

@@ -69,6 +69,9 @@ COUNTS = {  # value of a table -> columns of metrics.rates, name of its interval
     "wrong": ("wrong", "judged", "wrong", "Misses and false alarms, of the certified cases answered."),
     "tunnelled": ("tunnelled", "can_tunnel", "tunnel", "Misses, of the certified hits answered whose start and end are both clear."),
     "answered": ("answered", "asked", "answered", "Cases answered, of those asked.")}
+IN_NOISE = ("No ratio (-) where the reference's net time lies within the noise of its floor, the "
+            "interquartile range of the floor's rounds, in half of the cases or more; such cases "
+            "are left out elsewhere.")
 CLOCKED = ("net time", "gross time", "build time", "ratio")
 
 
@@ -138,8 +141,10 @@ def _clocked(store: Store, part: pd.DataFrame, value: str):
     state = _state(store)
     if value == "ratio":
         reference = _reference(store.config)
-        note = f"Net time over that of {reference}: median of the ratios case by case, 95 % bootstrap interval. Above 1: slower. {state}"
-        return metrics.ratios(times, reference, ["column"]), lambda r: f"{r.ratio:.2g} [{r.low:.2g}, {r.high:.2g}]", note
+        note = (f"Net time over that of {reference}: median of the ratios case by case, 95 % bootstrap "
+                f"interval. Above 1: slower. {IN_NOISE} {state}")
+        found = metrics.ratios(times, reference, ["column"]).dropna(subset=["ratio"])
+        return found, lambda r: f"{r.ratio:.2g} [{r.low:.2g}, {r.high:.2g}]", note
     column, what = {"net time": ("net", "Microseconds per query from Python, less the method's floor; medians over cases"),
                     "gross time": ("ns", "Microseconds per query from Python, floor included; medians over cases"),
                     "build time": ("build_ns", "Microseconds to build for a query (a body that was built before is mostly kept); medians over cases")}[value]
@@ -339,7 +344,7 @@ def cost_tables(store: Store) -> Iterator[Table]:
     reference = _reference(store.config)
     for (question, situation), part in metrics.paired_ratios(store, reference).groupby(["question", "situation"], sort=False):
         yield Table(f"ratio-{question}-{situation}", f"Net time over that of {reference}, {question}, {situation}.", "Median of the ratios case by case on the cases both "
-                    f"answered, 95 % bootstrap interval. Above 1: slower. {state}", part, _by_faces(part, lambda r: f"{r.ratio:.2g} [{r.low:.2g}, {r.high:.2g}]"))
+                    f"answered, 95 % bootstrap interval. Above 1: slower. {IN_NOISE} {state}", part, _by_faces(part, lambda r: f"{r.ratio:.2g} [{r.low:.2g}, {r.high:.2g}]"))
 
 
 def _state(store: Store) -> str:

@@ -139,7 +139,11 @@ LINES = (  # what a line is about; the table; what it says of an engine's method
     ("By signed gap, wrong", "gap/tables/gap-wrong.md", gap),
     ("Walls, tunnelled", "tunnelling/tables/tunnelling-straight.md", walls),
     ("Turns, missed", "rotation/tables/rotation-side.md", turns),
-    ("Time of impact, error in steps", "impact/tables/impact-latest.md", impact),
+    (
+        "Time of impact, error in steps, hits at an end too",
+        "impact/tables/impact-latest.md",
+        impact,
+    ),
     (f"Time over that of {OURS}, native, pairs apart", "native/native.md", native),
     (
         f"Net time over that of {OURS}, from Python, 0 where it is not above the method's own floor",

@@ -69,7 +69,9 @@ def page(folder) -> str:
         (
             "Made by `ofg-bench findings` from the runs in this folder at the end of `make reproduce`, which does it all again;"
             " no figure is typed. Counts are wrong/asked with 95 % Wilson intervals, over the certified cases that a method"
-            " answered; times have 95 % bootstrap intervals. Cases of a family resemble each other more than the intervals know."
+            " answered; times have 95 % bootstrap intervals, and no ratio of net times from Python is"
+            " over one within the noise of its floor (the interquartile range of the floor's"
+            " rounds). Cases of a family resemble each other more than the intervals know."
             f" *{HOLDS.capitalize()}*: the rule under the claim is met; *{FAILS}*: its opposite is shown; *{PART}*: both, in"
             f" parts; *{OPEN}*: too few cases; *{UNMEASURED}*: a run is missing. Of {len(found)} claims:"
             f" {', '.join(f'{n} {v}' for v, n in counts.items())}. After the claims: [the engines](#the-engines), [the"

@@ -12,9 +12,11 @@ import pandas as pd
 
 from .. import metrics, sizes, tables
 from ..store import Store, StoreError
+from . import ends
 
 MISSES = 0.05  # a rate of misses is small if its whole interval lies under this, large if above
 LATE = 1e-3  # of the step: what an estimate of the time of impact may be off
+NOISY = "within the noise"  # in place of a ratio: see metrics.ratios
 HOLDS, PART, FAILS, OPEN, UNMEASURED = "holds", "holds in part", "fails", "open", "not measured"
 
 
@@ -37,6 +39,14 @@ class Runs:
         """metrics.case_costs of a run, with the scenario and level of each case."""
         cases = lambda: self.answers(run)[["case", "scenario", "level"]].drop_duplicates()  # noqa: E731
         return self._once(("times", run), lambda: metrics.case_costs(Store(self.folder / run)).merge(cases(), on="case"))
+
+    def bodies(self, run: str) -> pd.Series:
+        """What the two bodies of each case are: "convex and mesh", by case."""
+        return self._once(("bodies", run), lambda: kinds(Store(self.folder / run)))
+
+    def known(self, run: str) -> pd.DataFrame:
+        """ends.known of the cases of a run."""
+        return self._once(("known", run), lambda: ends.known(Store(self.folder / run)))
 
     def file(self, name: str) -> pd.DataFrame:
         """A frame of the folder: sizes/sizes.parquet, native/native.csv, stepping/stepping.parquet."""
@@ -92,6 +102,20 @@ class Rate:
         return self.low > MISSES
 
 
+def kinds(store: Store) -> pd.Series:
+    """What the two bodies of each case of a run are, in the order of the alphabet."""
+    cases = store.read("cases.parquet")
+    kind = store.read("bodies.parquet").set_index("body").kind
+    pairs = zip(cases.body_a.map(kind), cases.body_b.map(kind))
+    return pd.Series([" and ".join(sorted(pair)) for pair in pairs], cases.case)
+
+
+def overall(verdicts) -> str:
+    """The verdict on a claim of several parts that have one each."""
+    found = set(verdicts)
+    return found.pop() if len(found) == 1 else PART
+
+
 def rows(frame: pd.DataFrame, **wanted) -> pd.DataFrame:
     """The rows whose columns have the wanted value, or one of several. Missing if there are none."""
     for column, value in wanted.items():
@@ -128,9 +152,10 @@ def are_small(rates) -> str:
     return PART if any(r.large for r in rates) else OPEN
 
 
-def ratio(times: pd.DataFrame, method: str, reference: str, by: str) -> pd.DataFrame:
-    """metrics.ratios of one method, indexed by `by`: ratio, low, high, pairs."""
-    found = metrics.ratios(rows(times, method=[method, reference]), reference, [by])
+def ratio(times: pd.DataFrame, method: str, reference: str, by) -> pd.DataFrame:
+    """metrics.ratios of one method, indexed by `by`: ratio, low, high, pairs, in_noise."""
+    groups = [by] if isinstance(by, str) else by
+    found = metrics.ratios(rows(times, method=[method, reference]), reference, groups)
     return rows(found, method=method).set_index(by).sort_index()
 
 
@@ -164,12 +189,37 @@ def spread(rates: dict) -> str:
 
 def interval(r) -> str:
     """A ratio and its interval, three digits each, never in powers of ten."""
+    if np.isnan(r.ratio):
+        return NOISY
     value, low, high = (f"{v:.0f}" if v >= 100 else f"{v:.3g}" for v in (r.ratio, r.low, r.high))
     return f"{value} [{low}, {high}]"
 
 
 def times_more(r) -> str:
-    return f"{interval(r)}, n={r.pairs}"
+    return NOISY if np.isnan(r.ratio) else f"{interval(r)}, n={r.pairs}"
+
+
+def share_of(flags: pd.Series) -> Rate:
+    """How many of all are so. Missing if there are none."""
+    if flags.empty:
+        raise Missing("no such rows")
+    count = int(flags.sum())
+    return Rate(count, len(flags), *metrics.wilson(count, len(flags)))
+
+
+def worst_families(found: pd.DataFrame, method: str, kind: str = "misses", n: int = 2) -> str:
+    """The families with a method's highest rates, of those where it has any count."""
+    each = by_family(found, method, kind)
+    some = [name for name in each if each[name].count]
+    worst = sorted(some, key=lambda name: each[name].count / each[name].total)[-n:]
+    return listed({name: each[name] for name in reversed(worst)}) or "no family"
+
+
+def by_family(found: pd.DataFrame, method: str, kind: str = "misses") -> dict[str, Rate]:
+    """A method's rate in each family that has such cases."""
+    label = "clear" if kind == "false alarms" else "hit"
+    such = rows(found, method=method, label=label, status="ok")
+    return {f"`{name}`": rate(part, kind) for name, part in such.groupby("scenario", sort=False)}
 
 
 def wrong_rate(part: pd.DataFrame) -> Rate:

@@ -24,15 +24,15 @@ int main() {
   memory.reserve(rod, wall);
 
   const ofg::Pose start{{1, 0, 0, 0}, {-3, 0.2, 0.3}}, origin;
-  ofg::Options as_written;
-  as_written.k = 8;
-  std::printf("now: %s\n", ofg::overlap(rod, wall, {start, origin}, as_written, memory).hit ? "hit" : "clear");
+  ofg::Options article;
+  article.k = 8;
+  std::printf("now: %s\n", ofg::overlap(rod, wall, {start, origin}, article, memory).hit ? "hit" : "clear");
 
-  ofg::Options repaired = as_written;
+  ofg::Options repaired = article;
   repaired.adaptive_k = repaired.both_vertices = repaired.edge_edge = repaired.containment = repaired.earliest = true;
   repaired.selection_times = 3, repaired.arc_tolerance = 1e-6;
   const ofg::Motion motion{{6, 0, 0}, {0, 0, 1}, 3.0};  // flies along x, turning 3 radians about z
-  for (const ofg::Options& options : {as_written, repaired}) {
+  for (const ofg::Options& options : {article, repaired}) {
     const ofg::Answer answer = ofg::sweep(rod, wall, {start, origin, motion}, options, memory);
     std::printf("step: %s at %.6f, face %d on face %d\n", answer.hit ? "hit" : "clear", answer.time, answer.face_a,
                 answer.face_b);

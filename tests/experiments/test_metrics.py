@@ -96,3 +96,35 @@ def test_touching_is_nobodys_error(margin):
 def test_a_run_from_before_touching_was_known_has_none(margin):
     table = metrics.outcomes(Tables([case("a", label="clear", gap=0.5)], [seen("a", True)]))
     assert list(table.outcome) == ["false alarm"] and not table.touching.any()
+
+
+def clocked(own, other, floor=(100, 100, 100)):
+    """Rows of timings.parquet: a floor of two methods, and a case for each net time of theirs."""
+    times = {"ofg k=8": own, "brute-force": other}
+    rows = [("overlap", "to 24", "near", m, "(floor)", 0, list(floor)) for m in times]
+    rows += [("overlap", "to 24", "near", m, str(i), 0, [100 + net] * 3)
+             for m, nets in times.items() for i, net in enumerate(nets)]
+    columns = ["question", "faces", "situation", "method", "case", "build_ns", "rounds_ns"]
+    run = Tables([], [seen("a")])
+    run.frames["timings.parquet"] = pd.DataFrame(rows, columns=columns)
+    return run
+
+
+def ratio_of(run):
+    found = metrics.ratios(metrics.case_costs(run), "ofg k=8", ["question"])
+    return found[found.method == "brute-force"].iloc[0]
+
+
+def test_a_net_time_within_the_noise_of_its_floor_is_no_denominator():
+    quiet, loud = (100, 100, 100), (60, 100, 140)  # interquartile ranges of 0 and 40
+    nets = (1, 100, 200), (1000, 1000, 1000)
+    assert ratio_of(clocked(*nets, quiet)).ratio == 10
+    row = ratio_of(clocked(*nets, loud))
+    assert (row.ratio, row.pairs, row.in_noise) == (7.5, 2, 1)
+
+
+def test_where_half_lies_within_the_noise_there_is_no_ratio():
+    run = clocked((1, 2, 100, 200), [1000] * 4, (60, 100, 140))
+    row = ratio_of(run)
+    assert np.isnan(row.ratio) and (row.pairs, row.in_noise) == (2, 2)
+    assert metrics.paired_ratios(run, "ofg k=8").empty

@@ -95,7 +95,7 @@ def test_a_body_inside_another_is_seen_by_containment_alone(cube):
     assert ofg.discrete(cube, small, containment=True)
 
 
-def test_deep_hulls_are_missed_as_written(ball):
+def test_the_article_misses_deep_hulls(ball):
     """The opposing patches pass through each other: the selections, nearest to the other's centre, do not meet although the balls do."""
     deep = Pose(position=(0.2, 0.01, 0.02))
     assert not ofg.discrete(ball, ball, pose_b=deep, k=4)

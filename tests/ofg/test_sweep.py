@@ -71,7 +71,7 @@ def test_operations_are_as_the_article_claims(hulls):
             assert set(r.count("distances")) <= {0, len(a.faces) + len(b.faces)} and (r.count("spheres") == 1).all()
 
 
-def test_edge_against_edge_is_missed_as_written():
+def test_the_article_misses_edge_against_edge():
     """Two crossed bars: no vertex of either passes a face of the other."""
     long_x, long_y = Body.convex(CUBE * (5, 0.1, 0.1)), Body.convex(CUBE * (0.1, 5, 0.1))
     turned = Pose((np.cos(np.pi / 8), np.sin(np.pi / 8), 0, 0), (0, 0, 2))
@@ -83,7 +83,7 @@ def test_edge_against_edge_is_missed_as_written():
     assert answer.time == pytest.approx((2 - reach) / 4, abs=1e-12)
 
 
-def test_vertices_of_b_are_missed_as_written(cube):
+def test_the_article_misses_vertices_of_b(cube):
     """A broad plate falls on a spike: the vertex that meets the plate is B's."""
     plate = Body.convex(CUBE * (9, 9, 0.1))
     spike = Body.convex(np.array([[0, 0, 0], [0.1, 0, -1], [-0.1, 0.1, -1], [-0.1, -0.1, -1]], float))
