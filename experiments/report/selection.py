@@ -65,7 +65,7 @@ def trace(query: Query, options: dict, impact: float = nan) -> dict:
     }
     made["met"] = [answer.faces[0] + ma.first, answer.faces[1] + mb.first] if answer.hit and min(answer.faces) >= 0 else None
     moving = query.question != "overlap"
-    parts = _parts(query, ma, chosen) if moving else 1
+    parts = _parts(query, ma, mb, chosen) if moving else 1
     at = answer.time if answer.hit and not np.isnan(answer.time) else impact
     index = min(int(at * parts), parts - 1) if at == at else 0
     window = (index / parts, (index + 1) / parts) if moving else (0.0, 0.0)
@@ -210,17 +210,43 @@ def _sphere(mesh: Mesh, faces: np.ndarray) -> tuple[np.ndarray, float]:
     return centre, float(np.linalg.norm(corners - centre, axis=2).max())
 
 
-def _parts(query: Query, a: Mesh, chosen: _Options) -> int:
+def _parts(query: Query, a: Mesh, b: Mesh, chosen: _Options) -> int:
+    """Into how many equal parts the repair "arcs" halves the step: as stray.hpp bounds what chords stray by."""
     wa, wb = abs(query.motion.angle), abs(query.motion_b.angle)
     if not chosen.arc_tolerance or not wa + wb:
         return 1
-    bend = wa * np.sqrt(a.body.radius)
-    if wb:  # how B's turn bends the paths that A's vertices take in B's frame
-        v = np.linalg.norm(_displacement(query))
-        apart = np.linalg.norm(query.pose_a.position - query.pose_b.position) + v
-        own = a.body.radius
-        bend = np.sqrt(wa**2 * own + 2 * wb * (wa * own + v) + wb**2 * (apart + own))
-    return int(min(65536, max(1, np.ceil(bend / np.sqrt(8 * chosen.arc_tolerance * a.radius)))))
+    of_a, of_b = _lever(a, query.motion), _lever(b, query.motion_b)
+    slide, pivots = np.linalg.norm(_displacement(query)), _pivots(query)
+    far = max(np.linalg.norm(pivots), np.linalg.norm(pivots + _displacement(query)))
+
+    def strays(h: float) -> float:
+        away = _bend(wa, wb, of_a, slide, far + of_a)
+        if chosen.both_vertices:
+            away = max(away, _bend(wb, wa, of_b, slide, of_a + (slide + wb * of_b) * h))
+        return away * h * h / 8
+
+    parts = 1
+    while strays(1 / parts) > chosen.arc_tolerance * a.radius and parts < 2**24:
+        parts *= 2
+    return parts
+
+
+def _bend(own: float, other: float, lever: float, slide: float, apart: float) -> float:
+    """Bound on the second derivative of a point's path, seen from the other body."""
+    return own**2 * lever + 2 * other * (slide + own * lever) + other**2 * apart
+
+
+def _lever(mesh: Mesh, motion: Motion) -> float:
+    """No vertex is farther from the point that the body turns about."""
+    about = motion.about if motion.angle else np.zeros(3)
+    return min(mesh.body.radius + np.linalg.norm(about), mesh.radius + np.linalg.norm(mesh.centre - about))
+
+
+def _pivots(query: Query) -> np.ndarray:
+    """From the point that B turns about to the one that A turns about, at the start."""
+    sides = ((query.pose_a, query.motion), (query.pose_b, query.motion_b))
+    at_a, at_b = (p.position + (p.rotation @ m.about if m.angle else 0) for p, m in sides)
+    return at_a - at_b
 
 
 def _stopped(query, a, b, fa, fb, moving, chosen) -> str:

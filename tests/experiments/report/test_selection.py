@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import ofg
+from experiments import scenarios
 from experiments.report import selection
 from experiments.rows import cases_of
 from ofg import _core
@@ -71,3 +72,20 @@ def test_faces_that_should_have_met_do_meet_and_a_face_among_the_k_nearest_was_t
                 assert place is None or (place <= 4) == (face in taken), case.id
             seen += 1
     assert seen
+
+
+@pytest.mark.parametrize("repairs", ["arcs", "arcs+both-vertices"])
+def test_the_parts_of_the_step_are_those_that_the_core_halves_it_into(repairs):
+    """Halving makes 2 n - 1 windows of n parts; the core passes over those where spheres are apart."""
+    reached = 0
+    for name in ("both_moving", "screw_wall", "rotational_contact"):
+        family = scenarios.get(name)
+        for level in family.levels:
+            query = family.case(3, level, 0).query
+            answer, shown = ofg.ask(query, repairs=repairs), selection.trace(query, {"k": 8, "repairs": repairs})
+            parts = shown["parts"]
+            assert parts & (parts - 1) == 0
+            if not answer.hit:
+                assert answer.counts["steps"] <= 2 * parts - 1
+                reached += answer.counts["steps"] > 1
+    assert reached
