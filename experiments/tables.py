@@ -193,7 +193,7 @@ def truth_table(store: Store) -> Table:
     frame = pd.DataFrame(rows)
     text, touching = frame.astype(str), ""
     if frame.touching.any():
-        touching = ("Touching ones, whose surfaces share a point and no more, count as clear here, and "
+        touching = ("Touching ones, which share a boundary point without overlapping, count as clear here, and "
                     "are in no rate. ")
     else:
         text = text.drop(columns="touching")
@@ -267,7 +267,7 @@ def touching_table(part: pd.DataFrame, question: str) -> Table:
              "said clear": clears}
     text = pd.DataFrame({"method": counts.method, **{k: v.astype(str) for k, v in shown.items()}})
     numbers = counts[["method", "asked", "answered", "touching_hits"]].assign(touching_clears=clears)
-    caption = ("The surfaces share a point, certified, and the bodies no more: neither answer is wrong, and "
+    caption = ("The bodies are certified to touch without overlapping: neither answer is wrong, and "
                "these cases are in no rate.")
     return Table(f"touching-{question}", f"Touching, {question}.", caption, numbers, text, True)
 
