@@ -1,7 +1,7 @@
 """Time per step of OFG, by size and k, beside the native engines in the same run: `python -m experiments.bench_ofg`.
 
 Builds ofg/bench with cmake, against FCL and Bullet where Debian's libfcl-dev and libbullet-dev are installed and MuJoCo from its wheel;
-what is missing is said and left out. "OFG k=8" goes through the eight steps for every pair. "screened" lets a plane between the whole
+Coal and parry are asked through their plugins of the native lane. What is missing is listed and left out. "OFG k=8" goes through the eight steps for every pair. "screened" lets a plane between the whole
 bodies settle those that are apart first (the same answers); "in batch" asks all pairs in one call. All methods are asked the same pairs in interleaved rounds on one core; a ratio is the median
 over rounds of the quotient within a round, so that a busy machine slows both sides of it.
 """
@@ -22,6 +22,7 @@ import pandas as pd
 import trimesh
 
 import ofg
+from baselines import native
 from ofg import Body
 
 ROOT = Path(__file__).parents[1]
@@ -29,7 +30,11 @@ COMPARED = (
     *("OFG double k=8 screened in batch", "OFG float k=8 screened in batch", "OFG double k=8 screened", "OFG double k=8"),
     *("OFG double repaired screened in batch", "OFG double repaired", "OFG double k=all"),
 )
-ENGINES = ("FCL libccd", "FCL indep", "Bullet GjkPair", "Bullet GjkEpa2", "MuJoCo native", "MuJoCo libccd")
+LANE = ("coal", "parry")  # plugins of baselines/native that are asked here too
+ENGINES = (
+    *("FCL libccd", "FCL indep", "Bullet GjkPair", "Bullet GjkEpa2", "MuJoCo native"),
+    *("MuJoCo libccd", "coal-convex", "coal-convex-exact", "parry"),
+)
 
 
 def bodies(rng: np.random.Generator) -> dict[str, tuple[Body, Body]]:
@@ -95,10 +100,19 @@ def build(folder: Path) -> Path:
     return folder / "bench"
 
 
+def plugins() -> list[Path]:
+    """The plugins of LANE that can be built here."""
+    try:
+        built, _ = native.build()
+    except native.NativeError:
+        return []
+    return [native.FOLDER / "plugins" / f"{name}.so" for name in LANE if name in built]
+
+
 def measure(program: Path, cells: Path, rounds: int, isa: str | None) -> pd.DataFrame:
     core = min(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else None
     pin = (lambda: os.sched_setaffinity(0, {core})) if core is not None else None
-    done = subprocess.run([program, cells, str(rounds), *([isa] if isa else [])], capture_output=True, text=True, preexec_fn=pin)
+    done = subprocess.run([program, cells, str(rounds), isa or "-", *plugins()], capture_output=True, text=True, preexec_fn=pin)
     if done.returncode:
         raise SystemExit(f"bench-ofg stopped: {done.stderr}")
     rows = pd.read_csv(io.StringIO(done.stdout))

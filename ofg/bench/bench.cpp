@@ -1,7 +1,8 @@
-// bench CELLS ROUNDS: times every method on every cell, interleaved, and prints "cell,method,round,nanoseconds,hits" a line.
+// bench CELLS ROUNDS [ISA|-] [PLUGIN...]: times every method on every cell, interleaved, and prints "cell,method,round,nanoseconds,hits" a line.
 // CELLS is what experiments/bench_ofg.py writes: per cell a line with its name and sizes, then the numbers.
 #include "bench.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -95,12 +96,13 @@ void ofg_methods(const Cell& c, const std::string& precision, std::vector<Timed>
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) return std::fprintf(stderr, "usage: bench CELLS ROUNDS [sse2|avx2|avx512]\n"), 2;
-  if (argc > 3) {
+  if (argc < 3) return std::fprintf(stderr, "usage: bench CELLS ROUNDS [sse2|avx2|avx512|-] [PLUGIN...]\n"), 2;
+  if (argc > 3 && argv[3] != std::string("-")) {
     const std::string isa = argv[3];
     if (!ofg::set_isa(isa == "sse2" ? ofg::Isa::sse2 : isa == "avx2" ? ofg::Isa::avx2 : ofg::Isa::avx512))
       return std::fprintf(stderr, "this machine lacks %s\n", argv[3]), 2;
   }
+  const std::vector<const char*> plugins(argv + std::min(argc, 4), argv + argc);
   std::ifstream in(argv[1]);
   const int rounds = std::atoi(argv[2]);
   std::printf("cell,method,round,nanoseconds,hits\n");
@@ -113,7 +115,6 @@ int main(int argc, char** argv) {
     ofg_methods<double>(cell, "double", methods);
     ofg_methods<float>(cell, "float", methods);
     const auto add = [&](std::vector<Timed> more) { methods.insert(methods.end(), more.begin(), more.end()); };
-    (void)add;
 #ifdef HAS_FCL
     add(fcl_methods(cell));
 #endif
@@ -123,6 +124,7 @@ int main(int argc, char** argv) {
 #ifdef HAS_MUJOCO
     add(mujoco_methods(cell));
 #endif
+    add(lane_methods(cell, plugins));
     for (int round = -1; round < rounds; ++round)  // the first warms up
       for (const auto& method : methods) {
         const auto from = std::chrono::steady_clock::now();

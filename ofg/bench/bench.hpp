@@ -27,3 +27,4 @@ struct Timed {
 std::vector<Timed> fcl_methods(const Cell&);
 std::vector<Timed> bullet_methods(const Cell&);
 std::vector<Timed> mujoco_methods(const Cell&);
+std::vector<Timed> lane_methods(const Cell&, const std::vector<const char*>& plugins);  // of baselines/native
