@@ -36,6 +36,7 @@ def discrete(a: Body, b: Body, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, 
     half of what is left, and so on; NaN where no move meets), "bisection" (halving with the bracket kept) or "none".
     iterations: halvings at most (20: a bisection's bracket is then 1e-6 of the step; its later end is returned).
     broad: "swept" (step 1 with bounding spheres swept along the motion) or "start" (at the start pose, the literal reading).
+    The default stays "swept" with repairs="none": step 1 at the start loses fast movers before any other repair can act.
     concave: "object" (OFG at the object level picks one pair of pieces), "undivided" (the surface as one mesh) or "all-pairs" of pieces.
     precision: "double" or "float" (the relative pose is in double always).
     screen: True to let a plane between the whole bodies settle "no" before the steps. The answers are the same, sooner where bodies are
