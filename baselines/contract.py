@@ -11,6 +11,7 @@ from ofg import Query
 
 from .errors import MissingEngine, Unsupported
 from .frames import stated
+from .parameter import Allowed, fault
 
 __all__ = ["Method", "MissingEngine", "Unsupported", "Verdict"]
 
@@ -27,7 +28,8 @@ class Method(ABC):
     """One engine in one configuration. Subclass it in a file of `baselines/`; class attributes declare what it is.
 
     A subclass is made once per worker process and asked many queries; it may cache what it builds per body
-    (`Body.digest`). Everything that a user would do once per body pair belongs in `prepare`; what he would do for each new
+    (`Body.digest`). Making one imports no engine and checks its parameters, so that a run is refused before it begins: by `allowed`,
+    or with a ValueError from an `__init__` of your own. Everything that a user would do once per body pair belongs in `prepare`; what he would do for each new
     pose belongs in the callable that `prepare` returns, and is timed.
     """
 
@@ -49,6 +51,8 @@ class Method(ABC):
     time_error: float = nan  #: documented bound on |time - true time|, as a share of the step; may be a property
     cheapest: ClassVar[Mapping[str, Any]] = {}  #: parameters of its cheapest call, which gives its floor: {"n": 1} for n substeps
     parameters: ClassVar[Mapping[str, Any]] = {}  #: name -> default; the first is the one its accuracy-speed curve runs over
+    #: name -> (least, most) of a number, or the words that it takes; others take all of their kind
+    allowed: ClassVar[Mapping[str, Allowed]] = {}
     unlimited: ClassVar[frozenset[str]] = frozenset()  #: whole-number parameters that take "inf" too
 
     def __init__(self, **parameters):
@@ -56,6 +60,10 @@ class Method(ABC):
         if unknown:
             known = ", ".join(self.parameters) or "none"
             raise ValueError(f"Method '{self.name}' has no parameter {', '.join(unknown)}; it has: {known}.")
+        for name, value in parameters.items():
+            unlimited = name in self.unlimited
+            if wrong := fault(value, self.parameters[name], self.allowed.get(name), unlimited):
+                raise ValueError(f"Method '{self.name}': {name} = {value} {wrong}.")
         self.parameters = {**self.parameters, **parameters}
 
     @property

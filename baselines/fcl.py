@@ -254,6 +254,7 @@ class _Advancement(_Continuous):
     configuration = "best effort"
     questions = frozenset({"translation", "motion"})
     parameters = {"toc_err": 1e-4}
+    allowed = {"toc_err": (1e-15, 1.0)}
     solver = "GST_INDEP"
     guarantee = "conservative advancement, time within toc_err"
 
@@ -275,6 +276,7 @@ class _Naive(_Continuous):
     configuration = "best effort"
     questions = frozenset({"translation", "motion"})
     parameters = {"iterations": 10}
+    allowed = {"iterations": (2, 2**31 - 1)}  # the start and the end at least
     cheapest = {"iterations": 2}
     advancement = "CCDC_NAIVE"
     guarantee = "discrete test at evenly spaced samples of FCL's own interpolation; blind between them"
@@ -286,11 +288,6 @@ class _Naive(_Continuous):
     @property
     def time_error(self) -> float:
         return 1 / (self.parameters["iterations"] - 1)
-
-    def __init__(self, **parameters):
-        super().__init__(**parameters)
-        if self.parameters["iterations"] < 2:
-            raise ValueError(f"Method '{self.name}': iterations = {self.parameters['iterations']}; give 2 or more (start and end).")
 
 
 class FclNaiveConvex(_Convex, _Naive):

@@ -8,6 +8,7 @@ documentation asks. Touching counts as a hit.
 from __future__ import annotations
 
 from functools import cache
+from math import inf
 from typing import Callable
 
 import numpy as np
@@ -64,12 +65,8 @@ class IpctkCcd(Method):
     gives_time = True
     guarantee = "never misses on straight vertex paths, never late (interval inclusion, tolerance 1e-6); surfaces only"
     parameters = {"n": 1, "max_iterations": 10_000_000}
+    allowed = {"n": (1, inf), "max_iterations": (1, 2**31 - 1)}
     cheapest = {"n": 1}
-
-    def __init__(self, **parameters):
-        super().__init__(**parameters)
-        if self.parameters["n"] < 1:
-            raise ValueError(f"Method '{self.name}': n = {self.parameters['n']} chords; give 1 or more.")
 
     def narrow_phase(self, ipctk):
         return ipctk.TightInclusionCCD(max_iterations=self.parameters["max_iterations"])

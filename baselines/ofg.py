@@ -9,6 +9,7 @@ from typing import Callable
 import ofg
 from ofg import QUESTIONS, Query
 from ofg.algorithm import ARTICLE
+from ofg.options import check_options
 
 from .contract import Method, Unsupported, Verdict
 
@@ -49,13 +50,17 @@ class Article(Method):
 
     def __init__(self, **parameters):
         super().__init__(**parameters)
+        _check(self.name, self._options)
         self.precision = "single" if self.parameters["precision"] == "float" else "double"
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
         query = replace(query, a=_pieces(query.a), b=_pieces(query.b))
-        ask = ofg.prepare(query, algorithm=ARTICLE, **{**self.parameters, "k": _faces(self.parameters["k"])})
+        ask = ofg.prepare(query, algorithm=ARTICLE, **self._options())
         return lambda: Verdict(*ask())
+
+    def _options(self) -> dict:
+        return {**self.parameters, "k": _faces(self.parameters["k"])}
 
 
 class OpposingFaceGeometry(Method):
@@ -101,6 +106,7 @@ class OpposingFaceGeometry(Method):
 
     def __init__(self, **parameters):
         super().__init__(**parameters)
+        _check(self.name, self._options)
         repaired = {name for name, value in self._options().items() if name in _REPAIRED and value != type(self).parameters[name]}
         self.solid = "containment" in repaired
         self.precision = "single" if self.parameters["precision"] == "float" else "double"
@@ -122,9 +128,17 @@ class OpposingFaceGeometry(Method):
         return options.get("concave") != "undivided" and not options.get("adaptive_k")
 
     def _options(self) -> dict:
-        """What the core is asked with: the repairs, overruled by what is given by name."""
+        """What the core is asked with: the repairs, overruled by what is given by name. ValueError for an unknown repair."""
         given = {name: value for name, value in self.parameters.items() if value != type(self).parameters[name]}
         return {**ofg.repair_options(given.pop("repairs", "none")), **given, "k": _faces(self.parameters["k"])}
+
+
+def _check(name: str, options: Callable[[], dict]) -> None:
+    """ValueError where OFG refuses the options."""
+    try:
+        check_options(**options())
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"Method '{name}': {error}") from error
 
 
 def _faces(k) -> int:

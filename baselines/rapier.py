@@ -160,13 +160,12 @@ class _CastInLegs(_Cast):
     # One nonlinear cast missed 24 of 42 hits of bodies that spin by half a turn beside another; 8 legs, or 32, missed none of them.
     configuration = "best effort"
     parameters = {"legs": 8}
+    allowed = {"legs": (1, math.inf)}
     cheapest = {"legs": 1}
 
     def __init__(self, **parameters):
         super().__init__(**parameters)
         self.legs = self.parameters["legs"]
-        if self.legs < 1:
-            raise ValueError(f"Method '{self.name}': legs = {self.legs}; give 1 or more.")
 
 
 class RapierCastLegs(Normalised, _Hull, _CastInLegs):

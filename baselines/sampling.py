@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from math import inf
 from typing import Any, Callable, ClassVar
 
 from ofg import Pose, Query
@@ -56,12 +57,8 @@ class Substeps(Discrete):
     gives_time = True
     movers, about = 2, True
     parameters = {"n": 16}
+    allowed = {"n": (1, inf)}
     cheapest = {"n": 1}
-
-    def __init__(self, **parameters):
-        super().__init__(**parameters)
-        if self.parameters["n"] < 1:
-            raise ValueError(f"Method '{self.name}': n = {self.parameters['n']} substeps; give 1 or more.")
 
     @property
     def time_error(self) -> float:

@@ -70,11 +70,15 @@ def run(
     scenarios_: Scenarios = None,
 ) -> None:
     """Run a configuration and print its tables. Said again, it goes on where it was interrupted."""
+    from . import entries
+
     chosen = configuration.load(source)
     changes = {"seed": chosen.seed if seed is None else seed,
                "method_files": chosen.method_files + tuple(map(str, methods or ())),
                "scenario_files": chosen.scenario_files + tuple(map(str, scenarios_ or ()))}
-    _run(chosen.model_copy(update=changes), out or Path("results", "runs", Path(source).stem), workers, skip_missing)
+    chosen = chosen.model_copy(update=changes)
+    entries.check(chosen, _named(source))
+    _run(chosen, out or Path("results", "runs", Path(source).stem), workers, skip_missing)
 
 
 @app.command()
@@ -87,11 +91,13 @@ def reproduce(
 
     What is finished already is not run again: remove its folder if it shall be. Said again after an interruption, it goes on where it stopped.
     """
-    from . import runner
+    from . import entries, runner
 
     everything = not names
     names = names or [*configuration.experiments(), "standard"]
     chosen = {name: configuration.load(name) for name in names}
+    for name, config in chosen.items():
+        entries.check(config, _named(name))
     for i, (name, config) in enumerate(chosen.items(), 1):
         console.print(f"[bold]{i} of {len(names)}: {name}[/] {config.title}", highlight=False)
         _say_missing(config)
@@ -126,7 +132,11 @@ def findings(
 @app.command()
 def resume(run_: Run, workers: Workers = None, skip_missing: SkipMissing = False) -> None:
     """Finish a run that was interrupted. It ends as if it had not been."""
-    _run(Store(run_).config, run_, workers, skip_missing)
+    from . import entries
+
+    config = Store(run_).config
+    entries.check(config, f"The configuration {run_ / 'config.json'}")
+    _run(config, run_, workers, skip_missing)
 
 
 def _run(config: configuration.RunConfig, folder: Path, workers: int | None, skip_missing: bool) -> None:
@@ -210,6 +220,10 @@ def compare(
         console.print(f"{first} is now the reference, made from {second}.")
         return
     raise typer.Exit(0 if found.identical else 1)
+
+
+def _named(source: str) -> str:
+    return f"The configuration file {source}" if source.endswith(".toml") else f"The configuration '{source}'"
 
 
 def _moved(before, after) -> str:

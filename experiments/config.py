@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 PRESETS = Path(__file__).parent / "presets"
 CATALOGUE = Path(__file__).parent / "catalogue"
+LONGEST = 1e6  # seconds, of a limit: eleven days; the watchdog takes no more than some hundred years
 GROUP = "ofg.experiments"  # entry points of installed packages that bring experiments: the path of a .toml file, or of a folder of them
 
 
@@ -84,9 +85,9 @@ class RunConfig(_Strict):
     timing: TimingChoice = TimingChoice()
     method_files: tuple[str, ...] = Field(default=(), description="Python files with METHODS = [...] of your own")
     scenario_files: tuple[str, ...] = Field(default=(), description="Python files with SCENARIO = ... of your own")
-    build_seconds: float = Field(default=300.0, gt=0, description="limit for preparing one query (convex decomposition can take minutes)")
-    query_seconds: float = Field(default=10.0, gt=0, description="limit for one query, after which it counts as timeout")
-    label_seconds: float = Field(default=30.0, gt=0, description="limit for one label, after which it counts as uncertain")
+    build_seconds: float = Field(default=300.0, gt=0, le=LONGEST, description="limit for preparing one query (convex decomposition can take minutes)")
+    query_seconds: float = Field(default=10.0, gt=0, le=LONGEST, description="limit for one query, after which it counts as timeout")
+    label_seconds: float = Field(default=30.0, gt=0, le=LONGEST, description="limit for one label, after which it counts as uncertain")
 
     @model_validator(mode="after")
     def _something_to_do(self):
@@ -146,6 +147,9 @@ def load(source: str) -> RunConfig:
                           "(ofg-bench preset quick > mine.toml) and start from there.")
     try:
         return RunConfig.model_validate(tomllib.loads(path.read_text()))
+    except (OSError, UnicodeDecodeError, RecursionError) as error:
+        reason = {UnicodeDecodeError: "it is not UTF-8", RecursionError: "it is nested too deeply"}.get(type(error), str(error))
+        raise ConfigError(f"The configuration file {path} cannot be read: {reason}.") from error
     except tomllib.TOMLDecodeError as error:
         raise ConfigError(f"The configuration file {path} is not valid TOML: {error}.") from error
     except ValidationError as error:

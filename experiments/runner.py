@@ -13,8 +13,8 @@ import pandas as pd
 
 from baselines import registry
 
-from . import answering, curves, figures, labelling, manifest, progress, scenarios, tables, timing
-from .config import ConfigError, RunConfig, load_files
+from . import answering, curves, entries, figures, labelling, manifest, progress, scenarios, tables, timing
+from .config import ConfigError, RunConfig
 from .report import report as html_report
 from .stepping import experiment as stepping
 from .store import Store
@@ -25,12 +25,8 @@ LABEL_SECONDS, PROCESS_SECONDS, ASK_SECONDS, CALL_SECONDS = 0.06, 0.5, 0.003, 0.
 
 
 def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missing: bool = False) -> list[tables.Table]:
-    """Run `config` in `folder`, or finish what was begun there; returns its tables. Raises ConfigError, StoreError, or ValueError for bad names."""
-    load_files(config)
-    labelling.slots(config)
-    tables.check(config)
-    if config.stepping:
-        stepping.check(config.stepping)
+    """Run `config` in `folder`, or finish what was begun there; returns its tables. Raises ConfigError or StoreError."""
+    entries.check(config)
     absent = missing(config.methods)
     if absent and not skip_missing:
         raise ConfigError("An engine that this run asks for is not installed. " + " ".join(absent) + " Or leave its rows "

@@ -12,7 +12,7 @@ from .answer import Answer, Answers
 from .arrays import broadcast, check_float, row, rows_of
 from .body import Body
 from .motion import Motion
-from .options import check_article, core_options
+from .options import PRECISION, check_article, core_options
 from .pose import Pose
 from .query import Query
 
@@ -257,4 +257,4 @@ def _threads(threads: int | None) -> int:
 
 
 def _is_float(precision: str) -> bool:
-    return checks.one_of("precision", precision, ("double", "float")) == 1
+    return checks.one_of("precision", precision, PRECISION) == 1

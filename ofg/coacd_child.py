@@ -1,9 +1,11 @@
-"""Run CoACD in a process of its own, which can be ended: coacd_child.py IN.npz OUT.npz SECONDS.
+"""Run CoACD in a process of its own, which can be ended: coacd_child.py SECONDS < IN.npz > OUT.npz
 
 Native code that hangs cannot be interrupted in the process that it runs in. This file is run as a
 script and imports nothing of ofg, so that it starts fast.
 """
 
+import io
+import os
 import signal
 import sys
 
@@ -19,16 +21,18 @@ def end_with_parent() -> None:
         ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
 
 
-def main(given: str, made: str, seconds: str) -> None:
+def main(seconds: str) -> None:
     end_with_parent()
     if hasattr(signal, "alarm"):
         signal.alarm(
             int(float(seconds)) + 5
         )  # its default action ends the process, also in native code
+    answer = os.dup(1)
+    os.dup2(2, 1)  # what CoACD prints must not get into the archive
     import coacd
 
     coacd.set_log_level("error")
-    with np.load(given) as x:
+    with np.load(io.BytesIO(sys.stdin.buffer.read()), allow_pickle=False) as x:
         mesh = coacd.Mesh(x["vertices"], x["faces"])
         parts = coacd.run_coacd(
             mesh,
@@ -38,7 +42,10 @@ def main(given: str, made: str, seconds: str) -> None:
         )
     splits = np.cumsum([len(v) for v, _ in parts])[:-1] if parts else np.empty(0, int)
     vertices = np.concatenate([v for v, _ in parts]) if parts else np.empty((0, 3))
-    np.savez(made, vertices=vertices, splits=splits)
+    stream = io.BytesIO()
+    np.savez(stream, vertices=vertices, splits=splits)
+    with open(answer, "wb") as pipe:
+        pipe.write(stream.getvalue())
 
 
 if __name__ == "__main__":

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import json
 import os
 import subprocess
 import sys
-import tempfile
 import zipfile
 from pathlib import Path
 
 import numpy as np
 import platformdirs
 
-from . import checks, exact, surface, winding
+from . import checks, exact, piecefile, surface, winding
 from .body import Body, BodyError
 
 SECONDS = 300.0  #: that CoACD may take; most bodies need less than ten
@@ -39,7 +39,8 @@ def decompose(
     support it in that many directions (the thinned piece lies inside it). seconds: CoACD runs in a
     process of its own, which is ended after that time.
     The result is kept in the user's cache folder, or in $OFG_CACHE, by the content of the mesh and
-    all parameters but the time.
+    all parameters but the time. An altered file there is made anew; where nothing can be written
+    there is one RuntimeWarning, and the result is kept for this process alone.
     Raises BodyError where CoACD takes longer, finds no pieces with a volume, or leaves out a part
     of the body (pieces are compared with it by volume, and at points in each shell).
     Source: Wei et al., "Approximate convex decomposition for 3D meshes with collision-aware
@@ -60,13 +61,13 @@ def decompose(
     if not seconds > 0:
         raise ValueError(f"seconds = {seconds} must be more than 0: the time that CoACD may take.")
     path = kept_at(body, threshold=threshold, max_pieces=max_pieces, seed=seed, thin=thin)
-    hulls = _load(path)
+    hulls = piecefile.load(path)
     if hulls is None:
         hulls = _coacd(body, threshold, max_pieces, seed, seconds)
         _require_alike(body, [Body.convex(v) for v in hulls])
         if thin:
             hulls = [supports(v, thin) for v in hulls]
-        _store(path, hulls)
+        piecefile.store(path, hulls)
     pieces = [Body.convex(v, f"{body.name}#{i}") for i, v in enumerate(hulls)]
     return Body.union(pieces, body.name)
 
@@ -148,29 +149,39 @@ def _outside(body: Body) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _run_apart(name: str, seconds: float, **given) -> list[np.ndarray]:
-    """CoACD's pieces as arrays of points, from a process of its own."""
-    with tempfile.TemporaryDirectory() as folder:
-        there, back = Path(folder, "given.npz"), Path(folder, "made.npz")
-        np.savez(there, **given)
-        script = Path(__file__).with_name("coacd_child.py")
-        command = [sys.executable, "-P", str(script), str(there), str(back), str(seconds)]
-        try:
-            done = subprocess.run(
-                command, capture_output=True, text=True, errors="replace", timeout=seconds
-            )
-        except subprocess.TimeoutExpired as error:  # the process is killed by then
-            raise BodyError(
-                f"Body '{name}': CoACD took more than {seconds:g} s and was ended. Simplify the"
-                " mesh, give a larger threshold or more seconds, or ask the mesh undivided."
-            ) from error
-        hulls = _load(back)
-        if hulls is None:
-            last = (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1][:150]
-            raise BodyError(
-                f"Body '{name}': CoACD failed ({last}). Repair the mesh (trimesh.repair), or ask it"
-                " undivided."
-            )
-        return hulls
+    """CoACD's pieces as arrays of points, from a process of its own. It is spoken to through pipes,
+    so that a full folder of temporary files is no fault of the body, and a kill leaves none."""
+    stream = io.BytesIO()
+    np.savez(stream, **given)
+    script = Path(__file__).with_name("coacd_child.py")
+    command = [sys.executable, "-P", str(script), str(seconds)]
+    try:
+        done = subprocess.run(
+            command, input=stream.getvalue(), capture_output=True, timeout=seconds
+        )
+    except subprocess.TimeoutExpired as error:  # the process is killed by then
+        raise BodyError(
+            f"Body '{name}': CoACD took more than {seconds:g} s and was ended. Simplify the"
+            " mesh, give a larger threshold or more seconds, or ask the mesh undivided."
+        ) from error
+    hulls = _made(done.stdout)
+    if hulls is None:
+        said = done.stderr.decode(errors="replace").strip().splitlines()
+        last = (said or [f"exit code {done.returncode}"])[-1][:150]
+        raise BodyError(
+            f"Body '{name}': CoACD failed ({last}). Repair the mesh (trimesh.repair), or ask it"
+            " undivided."
+        )
+    return hulls
+
+
+def _made(archive: bytes) -> list[np.ndarray] | None:
+    """What coacd_child.py wrote; None where it ended before it was done."""
+    try:
+        with np.load(io.BytesIO(archive), allow_pickle=False) as made:
+            return np.split(made["vertices"], made["splits"])
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        return None
 
 
 def _require_alike(body: Body, pieces: list[Body]) -> None:
@@ -235,27 +246,3 @@ def _coacd_version() -> str:
     from importlib.metadata import version
 
     return version("coacd")
-
-
-def _load(path: Path) -> list[np.ndarray] | None:
-    try:
-        with np.load(path, allow_pickle=False) as stored:
-            return np.split(stored["vertices"], stored["splits"])
-    except (
-        OSError,
-        ValueError,
-        KeyError,
-        EOFError,
-        zipfile.BadZipFile,
-    ):  # missing, or a file cut short: made anew
-        return None
-
-
-def _store(path: Path, hulls: list[np.ndarray]) -> None:
-    """Written beside and moved into place, so that nobody ever reads half a file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".npz", delete=False) as file:
-        np.savez(
-            file, vertices=np.concatenate(hulls), splits=np.cumsum([len(h) for h in hulls])[:-1]
-        )
-    os.replace(file.name, path)

@@ -10,6 +10,7 @@ TOI = ("none", "velocity", "bisection", "halving")
 ORDER = ("ends", "steps")
 BROAD = ("start", "swept")
 CONCAVE = ("object", "undivided", "all-pairs")
+PRECISION = ("double", "float")
 NEAREST = ("centroid", "point-triangle")
 SWITCHES = (
     "adaptive_k", "both_vertices", "edge_edge", "containment", "end_moment", "earliest", "screen"
@@ -83,6 +84,12 @@ def core_options(
     if chosen:
         _refuse(next(iter(chosen)))
     return o
+
+
+def check_options(*, precision: str = "double", **options: Any) -> None:
+    """TypeError or ValueError for what `discrete` would refuse of its options."""
+    checks.one_of("precision", precision, PRECISION)
+    core_options(**options)
 
 
 def check_article(options: Mapping[str, Any]) -> None:
