@@ -72,10 +72,10 @@ def body_of(row) -> Body:
 
 
 def _certificate(text: str):
-    """The stored certificate; the text itself where it is no JSON, which the checker refuses."""
+    """The stored certificate; the text itself where it is no JSON, or too deep, which the checker refuses."""
     try:
         return json.loads(text)
-    except ValueError:
+    except (ValueError, TypeError, RecursionError):
         return text
 
 

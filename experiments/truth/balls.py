@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from math import isfinite
+import re
+from math import inf, isfinite
 
 from flint import arb, fmpq
 
 BITS = 256
+_RATIONAL = re.compile(r"(-?[0-9]{1,4300})(?:/([0-9]{1,4300}))?")  #: what int() takes
 
 
 def rational(x) -> fmpq:
@@ -15,10 +17,11 @@ def rational(x) -> fmpq:
 
 
 def number(x) -> fmpq:
-    """A number of a certificate: a double, or a rational "p/q" or "p"."""
+    """A number of a certificate: a double, or a rational "p/q" or "p". ValueError for another."""
     if isinstance(x, str):
-        p, _, q = x.partition("/")
-        return fmpq(int(p), int(q or 1))
+        if not (read := _RATIONAL.fullmatch(x)):
+            raise ValueError(f"{x[:40]!r} is no number")
+        return fmpq(int(read[1]), int(read[2] or 1))
     return x if isinstance(x, fmpq) else rational(x)
 
 
@@ -32,8 +35,12 @@ def finite(x):
 
 
 def nearest_double(x) -> float:
-    """The double next to a number (error: one unit in the last place)."""
-    return int(x.p) / int(x.q) if isinstance(x, fmpq) else float(x)
+    """The double next to a number (error: one unit in the last place); infinite past their range,
+    which the filter leaves to the balls."""
+    try:
+        return int(x.p) / int(x.q) if isinstance(x, fmpq) else float(x)
+    except OverflowError:
+        return inf if x > 0 else -inf
 
 
 def vector(v) -> list:
