@@ -190,7 +190,8 @@ def compare(
             if names:
                 console.print(f"[bold]Only in {folder}[/]: {len(names)} {what}: {', '.join(names[:8])}{', ...' if len(names) > 8 else ''}", highlight=False)
     if found.remade:
-        console.print(f"{len(found.remade)} cases ask another question in {second} (other bodies, poses or motion) and are not compared: "
+        console.print(f"{len(found.remade)} cases have other bodies, poses or motion in {second} and are not compared; {len(found.changed)} of them by more than "
+                      f"rounding, so that they ask something else: "
                       f"{', '.join(found.remade[:8])}{', ...' if len(found.remade) > 8 else ''}", highlight=False)
     for title, frame in (("Labels that moved: the truth of the two runs differs.", found.labels), ("Answers that moved.", found.answers)):
         if len(frame):
@@ -204,7 +205,8 @@ def compare(
                     for r in found.times.itertuples()], "Median of the gross ratios case by case, 95 % bootstrap interval. Two runs are two states of the machine: read it "
                     "against the methods that did not change.")
     console.print(f"Accuracy is {'identical' if found.identical else 'NOT identical'}: {len(found.answers)} of {found.compared} answers moved, {len(found.labels)} "
-                  f"labels moved{'' if found.same_content else '; the runs differ in their cases or methods'}.", highlight=False)
+                  f"labels moved{'' if found.same_content else '; the runs differ in their cases or methods'}"
+                  f"{f'; {len(found.changed)} cases ask something else' if found.changed else ''}.", highlight=False)
     if accept:
         comparing.reference(after, before)
         console.print(f"{first} is now the reference, made from {second}.")
