@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import platform
 import subprocess
@@ -69,3 +70,20 @@ def _processor() -> str:
         return next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
     except (OSError, StopIteration):
         return platform.processor() or "unknown"
+
+
+#: what is made from the rows at any time, or tells of the machine: not data of the run
+DERIVED = {"manifest.json", "report.html", "workers.log", "tables", "figures", "parts"}
+
+
+def hashes(folder: Path) -> dict[str, str]:
+    """SHA-256 (hex) of each data file of a run by its path in the folder. Links are not followed."""
+    found = {}
+    for path in sorted(Path(folder).rglob("*")):
+        name = path.relative_to(folder)
+        if name.parts[0] in DERIVED or name.parts[0].startswith("."):
+            continue
+        if path.is_file() and not path.is_symlink():
+            with path.open("rb") as stream:
+                found[name.as_posix()] = hashlib.file_digest(stream, "sha256").hexdigest()
+    return found

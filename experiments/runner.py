@@ -40,13 +40,14 @@ def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missin
         return report(store)
     if config.stepping:
         stepping.measure(store, config)
-        note(store, finished=manifest.now(), after=manifest.machine())
+        note(store, finished=manifest.now(), after=manifest.machine(), sha256=manifest.hashes(store.folder))
     else:
         with progress.forecast(plan(config, workers)) as forecast:
             labelling.make_cases(store, config, workers)
             answering.ask(store, config, workers, Paces(store, config, workers, forecast).told)
             timing.measure(store, config)
-        note(store, finished=manifest.now(), after=manifest.machine(), workers=workers, halfway=halfway(forecast))
+        note(store, finished=manifest.now(), after=manifest.machine(), workers=workers, halfway=halfway(forecast),
+             sha256=manifest.hashes(store.folder))
     made = report(store)
     shutil.rmtree(store.folder / "parts", ignore_errors=True)
     return made

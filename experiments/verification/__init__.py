@@ -1,0 +1,35 @@
+"""Is a run what its configuration makes? Files, rows, cases, labels and, if wanted, answers."""
+
+from __future__ import annotations
+
+import os
+
+from ..config import load_files
+from ..store import Store
+from . import answers, cases, files, rows
+from .findings import Findings
+
+
+def verify(store: Store, ask: int | None = None, trust: bool = False, workers: int | None = None,
+           seed: int | None = None) -> Findings:
+    """Check a finished run. ask: ask the methods again about so many cases drawn by chance (-1: all).
+    trust: run the Python files that its configuration names. Writes nothing into the folder."""
+    found, config = Findings(), store.config
+    files.check(store, found)
+    rows.name_preset(config, found)
+    if config.stepping:
+        found.note("The stepping track has no certified labels: nothing but its files is checked.")
+        return found
+    if trust:
+        load_files(config)
+    workers = workers or os.cpu_count() or 1
+    frames = rows.read(store, found)
+    if frames is None:
+        return found
+    slots = rows.expected(config, frames["cases"], found)
+    sound = rows.check(config, frames, slots, found)
+    own = config if trust else None
+    cases.check(store, config, slots, sound, workers, own, found)
+    if ask is not None:
+        answers.check(config, frames, sound, ask, seed, workers, own, found)
+    return found

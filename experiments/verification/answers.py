@@ -1,0 +1,105 @@
+"""Methods asked again, in processes of their own as in a run, and compared with what is recorded."""
+
+from __future__ import annotations
+
+import math
+import secrets
+import tempfile
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from baselines import registry
+
+from .. import answering
+from ..compare import SAME_TIME
+from ..config import load_files
+from ..pool import Task, run
+from ..progress import stage
+from ..rows import cases_of
+from .findings import Findings
+
+#: methods whose engine reads memory that it never wrote: a difference is said and not refused
+UNREPEATABLE = ("fcl-advancement-convex", "fcl-advancement-mesh")
+
+
+def check(config, frames, names, count: int, seed, workers, own, found: Findings) -> None:
+    """Refuses by case and method. count: of cases, -1 for all. seed: of the draw; None: by chance,
+    so that nobody knows beforehand which cases will be asked."""
+    seed = secrets.randbits(32) if seed is None else seed
+    n = len(names) if count < 0 else min(count, len(names))
+    drawn = {names[i] for i in np.random.default_rng(seed).choice(len(names), n, replace=False)}
+    table = frames["cases"][frames["cases"].case.isin(drawn)]
+    cases = [case for case, _ in cases_of(table, frames["bodies"].drop_duplicates("body"))]
+    rows = _asked(config, cases, workers, own, found)
+    _compared(rows, frames["observations"], found)
+    if n < len(names):
+        tenth = max(1, len(names) // 100)
+        found.note(f"Asked again about {n} of {len(names)} cases, drawn with --ask-seed {seed}. If "
+                   f"{tenth} cases had altered answers, this finds one with the probability "
+                   f"{chance(len(names), tenth, n):.2f}.")
+
+
+def chance(cases: int, altered: int, asked: int) -> float:
+    """Probability that at least one of the altered cases is among those asked."""
+    return 1 - math.comb(cases - altered, asked) / math.comb(cases, asked)
+
+
+def _asked(config, cases, workers, own, found: Findings) -> list[dict]:
+    rows, tasks = [], []
+    for spec in config.asked:
+        try:
+            methods = registry.make(spec)
+        except ValueError:
+            found.note(f"{spec} was not asked again: it is no method of this package (--trust).")
+            continue
+        for m in methods:
+            def lost(case, status, detail, label=m.label):
+                return {"case": case.id, "method": label, "status": status, "hit": None,
+                        "time": math.nan, "detail": detail}
+
+            chunks = [cases[i:i + answering.CHUNK] for i in range(0, len(cases), answering.CHUNK)]
+            tasks += [Task(answering._open, (m.label, config), c, rows.extend, lost) for c in chunks]
+    total = sum(len(task.items) for task in tasks)
+    seconds = config.build_seconds + config.query_seconds
+    with tempfile.TemporaryDirectory() as folder, stage("ask again", total) as advance:
+        run(tasks, workers, seconds, Path(folder, "log"), advance, own and partial(load_files, own))
+    return rows
+
+
+def _compared(rows, recorded: pd.DataFrame, found: Findings) -> None:
+    before = {(r.case, r.method): r for r in recorded.itertuples()}
+    loose = 0
+    for row in rows:
+        then = before.get((row["case"], row["method"]))
+        if then is None:
+            continue
+        if row["status"] == "unsupported" != then.status and "install" in row["detail"]:
+            found.note(f"{row['method']} was not asked again: {row['detail']}")
+            continue
+        found.asked += 1
+        if _said(then.status, then.hit, then.time) == _said(row["status"], row["hit"], row["time"]):
+            continue
+        if row["method"].split()[0] in UNREPEATABLE:
+            loose += 1
+        else:
+            found.refuse(f"{row['case']} and {row['method']}",
+                         f"recorded {_word(then.status, then.hit, then.time)}, and asked again "
+                         f"{_word(row['status'], row['hit'], row['time'])}")
+    if loose:
+        found.note(f"{loose} answers of {', '.join(UNREPEATABLE)} differ: FCL's advancement reads "
+                   "memory that it never wrote, so that this proves nothing.")
+    found.notes[:] = dict.fromkeys(found.notes)
+
+
+def _said(status, hit, time):
+    hit = None if pd.isna(hit) else bool(hit)
+    return status, hit, None if pd.isna(time) else round(float(time) / SAME_TIME)
+
+
+def _word(status, hit, time) -> str:
+    if status != "ok":
+        return str(status)
+    return ("hit" if hit else "clear") + ("" if pd.isna(time) else f" at {time:.9g}")

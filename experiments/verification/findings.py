@@ -1,0 +1,38 @@
+"""What verification found."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+
+SHOWN = 40
+
+
+@dataclass
+class Findings:
+    """refused: one sentence for each thing that is not as it should be. notes: what was not checked,
+    or cannot be. labels: of the cases in which nothing is wrong, how many have which label."""
+
+    refused: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    labels: Counter = field(default_factory=Counter)
+    asked: int = 0
+
+    @property
+    def ok(self) -> bool:
+        return not self.refused
+
+    def refuse(self, where: str, what: str) -> None:
+        self.refused.append(f"{where}: {what}")
+
+    def note(self, words: str) -> None:
+        self.notes.append(words)
+
+    def __str__(self) -> str:
+        n = self.labels
+        head = (f"{n['hit'] + n['clear']} labels verified ({n['hit']} hit, {n['clear']} clear), "
+                f"{n['uncertain']} uncertain, {len(self.refused)} refused.")
+        asked = [f"{self.asked} answers asked again."] if self.asked else []
+        more = len(self.refused) - SHOWN
+        return "\n".join([head, *asked, *self.notes, *(f"refused: {r}" for r in self.refused[:SHOWN]),
+                          *([f"and {more} more refused"] if more > 0 else [])])
