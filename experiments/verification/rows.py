@@ -143,7 +143,8 @@ def _times(config, frames, found: Findings) -> None:
         where, bin_ = f"{row.case} and {row.method}", (row.question, row.faces, row.situation)
         case = cases.loc[row.case] if row.case in cases.index else None
         own = row.case == timing.FLOOR or row.method == timing.PROBE  # of the clock, not of a case
-        if seen[(*bin_, row.method, row.case)] > 1 or not (own or row.method in asked):
+        doubled = not own and seen[(*bin_, row.method, row.case)] > 1
+        if doubled or not (own or row.method in asked):
             found.refuse(where, "timings.parquet has rows of it that no run makes")
         elif not own and (case is None or bin_ != (case.question, str(case.bin), case.situation)):
             found.refuse(where, "it was timed in a bin that is not its own")

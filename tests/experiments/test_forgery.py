@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -157,3 +158,16 @@ def test_a_changed_file_is_named_and_a_run_without_hashes_says_so(run, tmp_path)
 def test_times_are_found_by_no_check(run, tmp_path):
     store = forged(run, tmp_path / "f", put("rounds_ns", lambda r: 2 * r), "timings")
     assert verify(store, workers=1).ok and "rounds_ns" in SILENT["timings"]
+
+
+def test_what_is_not_detectable_is_documented():
+    text = (Path(manifest.__file__).parent / "truth" / "README.md").read_text()
+    section = text.split("## What `ofg-bench verify` finds")[1].split("\n## ")[0]
+    lines = {line.split("`")[1]: line for line in section.splitlines() if line.startswith("- `")}
+    for table, columns in SILENT.items():
+        assert all(f"`{column}`" in lines[table] for column in columns)
+    assert all(f"`{column}`" in lines["observations"] for column in ASKED)
+
+
+def test_a_smaller_configuration_is_said_to_be_none_of_the_package(run):
+    assert any("none of this package's" in note for note in verify(Store(run), workers=1).notes)
