@@ -285,7 +285,7 @@ def verify(
 ) -> None:
     """Check a run: its files, its rows, every case drawn and proved again, and answers with --ask.
 
-    Exit code 0 if nothing is refused, 1 if something is. SECURITY.md says what this cannot find.
+    Exit code 0 if nothing is refused, 1 if something is. experiments/truth/README.md says what this cannot find.
     """
     from . import verification
 
