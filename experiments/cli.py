@@ -200,8 +200,8 @@ def compare(
             if names:
                 console.print(f"[bold]Only in {folder}[/]: {len(names)} {what}: {', '.join(names[:8])}{', ...' if len(names) > 8 else ''}", highlight=False)
     if found.remade:
-        console.print(f"{len(found.remade)} cases have other bodies, poses or motion in {second} and are not compared; {len(found.changed)} of them by more than "
-                      f"rounding, so that they ask something else: "
+        console.print(f"{len(found.remade)} cases have other bodies, poses or motions in {second} and are not compared; {len(found.changed)} of them "
+                      f"differ by more than rounding, so they ask a different question: "
                       f"{', '.join(found.remade[:8])}{', ...' if len(found.remade) > 8 else ''}", highlight=False)
     for title, frame in (("Labels that moved: the truth of the two runs differs.", found.labels), ("Answers that moved.", found.answers)):
         if len(frame):
@@ -216,7 +216,7 @@ def compare(
                     "against the methods that did not change.")
     console.print(f"Accuracy is {'identical' if found.identical else 'NOT identical'}: {len(found.answers)} of {found.compared} answers moved, {len(found.labels)} "
                   f"labels moved{'' if found.same_content else '; the runs differ in their cases or methods'}"
-                  f"{f'; {len(found.changed)} cases ask something else' if found.changed else ''}.", highlight=False)
+                  f"{f'; {len(found.changed)} cases ask a different question' if found.changed else ''}.", highlight=False)
     if accept:
         comparing.reference(after, before)
         console.print(f"{first} is now the reference, made from {second}.")
@@ -278,8 +278,8 @@ def explain(
 @app.command()
 def verify(
     run_: Run,
-    ask: Annotated[str, typer.Option(help="ask the methods again about so many cases drawn by chance, or: all")] = "",
-    ask_seed: Annotated[Optional[int], typer.Option(min=0, help="draw the same cases again")] = None,
+    ask: Annotated[str, typer.Option(help="ask the methods again about this many random cases, or about all")] = "",
+    ask_seed: Annotated[Optional[int], typer.Option(min=0, help="seed of that random choice")] = None,
     trust: Annotated[bool, typer.Option("--trust", help="run the Python files that the run names")] = False,
     workers: Workers = None,
 ) -> None:

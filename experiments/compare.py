@@ -27,7 +27,7 @@ class Difference:
     answers: rows (case, method, question, before, after) whose status, verdict, outcome or time of impact moved.
     rates: accuracy per question and method before and after, where it moved. times: ratios second over first, for whoever was timed in both.
     compared: pairs of case and method that both runs have. remade: cases whose numbers differ in the second run, left out of all this.
-    changed: those of them that differ by more than rounding: they ask something else, and the runs are not comparable."""
+    changed: those of them that differ by more than rounding: they ask a different question, and the runs are not comparable."""
 
     only_cases: tuple[list[str], list[str]]
     only_methods: tuple[list[str], list[str]]

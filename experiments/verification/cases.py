@@ -100,13 +100,13 @@ def _drawn(scenario, slot: Slot, row, bodies, seed: int, wrong: list[str]):
     for earlier in range(int(attempt)):
         truth = label(scenario.case(seed, slot.level, slot.index, earlier).query)
         if not scenario.useless(truth):
-            wrong.append(f"draw {earlier} was thrown away, and is of use: {truth.label}")
+            wrong.append(f"draw {earlier} was rejected, although its scenario accepts it: {truth.label}")
     case = scenario.case(seed, slot.level, slot.index, int(attempt))
     _inputs(case, row, int(attempt), wrong)
     for side in ("a", "b"):
         _body(getattr(case.query, side), bodies.get(row[f"body_{side}"]), side, wrong)
     if scenario.useless(_truth(row)) and attempt < REDRAWS - 1:
-        wrong.append("the draw is of no use to its scenario, and was kept")
+        wrong.append("the draw was kept, although its scenario rejects it")
     return case.query, [(body.digest, body.name) for body in (case.query.a, case.query.b)]
 
 
@@ -169,17 +169,17 @@ def _label(query: Query, row, wrong: list[str]) -> None:
     if not verdict.ok:
         wrong.append(f"label {truth.label} is refused: {verdict.reason}")
     if truth.label == "uncertain" != fresh.label:
-        return wrong.append(f"recorded as uncertain, and proved {fresh.label} now: a forgery, or a "
+        return wrong.append(f"recorded as uncertain, but now proved {fresh.label}: a forgery, or a "
                             "fault of the machine that recorded it")
     for claim in SAID:
         if getattr(truth, claim) != getattr(fresh, claim):
-            wrong.append(f"{claim} is {getattr(truth, claim)}, and proved {getattr(fresh, claim)}")
+            wrong.append(f"{claim} is recorded as {getattr(truth, claim)}, but proved to be {getattr(fresh, claim)}")
     if truth.t_hi - truth.t_lo > WIDTH * (fresh.t_hi - fresh.t_lo) + 1e-15:
         wrong.append(f"its bracket [{truth.t_lo}, {truth.t_hi}] is wider than the prover's")
     for claim in ("gap", "t_lo", "t_hi"):
         before, after = getattr(truth, claim), getattr(fresh, claim)
         if not (same(before, after) or math.isclose(before, after, rel_tol=GAP)):
-            wrong.append(f"{claim} is {before}, and proved {after}")
+            wrong.append(f"{claim} is recorded as {before}, but proved to be {after}")
 
 
 def same(a, b) -> bool:
