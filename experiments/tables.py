@@ -14,6 +14,7 @@ from ofg import QUESTIONS
 
 from . import metrics, scenarios
 from .config import ConfigError, RunConfig, TableChoice, closest
+from .inside import inside
 from .rows import filled
 from .store import Store
 from .table import MARK, Table, latex, marked, markdown, texts
@@ -21,6 +22,7 @@ from .timing import SIZES, situation_of, size_of
 
 __all__ = ["Table", "build", "check", "latex", "markdown", "save", "texts"]
 
+UNKNOWN = "its file is not loaded here"  # in place of what a method declares
 BANDS = (1e-2, 1e-4, 1e-7)  # of |gap| / size, that tables are split by
 
 
@@ -53,8 +55,12 @@ def general(store: Store, found: pd.DataFrame) -> Iterator[Table]:
 
 
 def save(store: Store, tables: list[Table]) -> None:
-    """Write each table as CSV, Markdown and LaTeX; files of tables that are not made any more go."""
-    for path in store.folder.glob("tables/*"):
+    """Write each table as CSV, Markdown and LaTeX; files of tables that are not made any more go.
+
+    Outside where that is not in the run's folder, before anything is written."""
+    for table in tables:
+        inside(store.folder, "tables", f"{table.name}.csv")
+    for path in inside(store.folder, "tables").glob("*"):
         if path.suffix in (".csv", ".md", ".tex") and path.stem not in {table.name for table in tables}:
             path.unlink()
     for table in tables:
@@ -178,7 +184,12 @@ def stepping_tables(store: Store) -> Iterator[Table]:
 
 
 def _reference(config: RunConfig) -> str:
-    return config.timing.reference or registry.make(config.asked[0])[0].label
+    if config.timing.reference:
+        return config.timing.reference
+    try:
+        return registry.make(config.asked[0])[0].label
+    except (ValueError, ImportError):  # a method whose file is not loaded
+        return config.asked[0]
 
 
 def truth_table(store: Store) -> Table:
@@ -205,9 +216,13 @@ def truth_table(store: Store) -> Table:
 
 def method_table(store: Store, found: pd.DataFrame) -> Table:
     """What each method of the run is, as it declares itself, with the version that ran."""
-    versions, known, rows = json.loads(store.path("manifest.json").read_text())["versions"], registry.methods(), []
+    versions, known, rows = store.facts.get("versions", {}), registry.methods(), []
     for name in dict.fromkeys(label.split()[0] for label in found.method):
-        m = known[name]
+        m = known.get(name)
+        if m is None:
+            rows.append({"method": name, "configuration": "unknown", "engine": "unknown", "answers": "", "bodies": "", "tests": "unknown",
+                         "margin": 0.0, "guarantee": UNKNOWN})
+            continue
         rows.append({"method": name, "configuration": m.configuration, "engine": f"{m.engine} {versions.get(m.engine) or 'absent'}",
                      "answers": " ".join(q for q in QUESTIONS if q in m.questions), "bodies": " ".join(sorted(m.bodies)),
                      "tests": "solid" if m.solid else "surface", "margin": m.margin, "guarantee": m.guarantee})

@@ -17,10 +17,10 @@ from baselines import registry
 from ofg import Body
 from ofg.decomposition import kept_at
 
-from .. import metrics, scenarios, tables
+from .. import given, metrics, scenarios, tables
 from ..progress import stage
 from ..rows import MOTION, cases_of, filled
-from ..store import Store
+from ..store import Store, StoreError
 from ..timing import FLOOR, LOST, PROBE, SIZES, situation_of, size_of
 from . import selection
 from .certificate import drawable
@@ -68,13 +68,16 @@ def of_run(store: Store, made_tables=None) -> dict:
     return {**made, **_shapes(store, rows, found)}
 
 
-def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict) -> dict:
-    """The same for one case: `row` is its row of cases.parquet, `observations` what methods said about it."""
+def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict, refused: str = "") -> dict:
+    """The same for one case: `row` is its row of cases.parquet, `observations` what methods said about it.
+
+    refused: why the checker does not accept its label, if it does not.
+    """
     rows = filled(pd.DataFrame([row]))
     found = metrics.judge(observations, rows)
     made = {
         "mode": "case",
-        "run": {"versions": versions},
+        "run": {"versions": versions, **({"refused": refused} if refused else {})},
         "codes": {code: name for name, code in CODES.items()},
         "cases": _cases(rows),
         "sizes": [name for _, name in SIZES],
@@ -100,7 +103,7 @@ def pack(content: bytes) -> str:
 
 
 def _run(store: Store) -> dict:
-    manifest = json.loads(store.path("manifest.json").read_text())
+    facts = store.facts
     noise = metrics.noise(store) if store.has("timings.parquet") else math.nan
     return {
         "name": store.folder.resolve().name,
@@ -108,7 +111,7 @@ def _run(store: Store) -> dict:
         "about": store.config.about,
         "noise": noise,
         "config": json.loads(store.config.model_dump_json()),
-        **manifest,
+        **facts,
     }
 
 
@@ -165,7 +168,7 @@ def _method(label: str, versions: dict) -> dict:
             "configuration": "",
             "solid": None,
             "margin": 0,
-            "guarantee": "its file is not here",
+            "guarantee": tables.UNKNOWN,
             "answers": [],
             "bodies": [],
         }
@@ -242,11 +245,21 @@ def _native(store: Store, labels: set[str]) -> dict:
     if not store.has("native.csv"):
         return {}
     lane: dict[str, dict] = {}
-    times = pd.read_csv(store.path("native.csv"))
+    times = _native_rows(store)
     times = times.assign(sizes=size_of(times.faces))
     for row in times[times.method.isin(labels) & times.native.notna() & times.situation.isin(NATIVE)].itertuples():
         lane.setdefault(row.method, {"cases": [], "bins": []})["bins"].append([*NATIVE[row.situation], row.sizes, row.native])
     return {"native": lane} if lane else {}
+
+
+def _native_rows(store: Store) -> pd.DataFrame:
+    path, wanted = store.folder / "native.csv", {"method": str, "faces": float, "native": float, "situation": str}
+    given.regular(path, "The file")
+    try:
+        return pd.read_csv(path, dtype=wanted, usecols=list(wanted))
+    except (ValueError, OSError) as error:
+        raise StoreError(f"{path} is no table of the native lane ({given.reason(error)}). Make it again with: "
+                         f"python -m experiments.native --out {store.folder}, or remove it.") from error
 
 
 def _table(table, found: pd.DataFrame) -> dict:
