@@ -112,12 +112,8 @@ def _wrong(values: pd.Series, kind, may_be_empty: bool) -> int | None:
         place, words = pd.factorize(values, use_na_sentinel=False)
     except TypeError:  # lists and the like
         return 0
-    fine = {NAME: is_name, TEXT: _is_text}.get(kind) if isinstance(kind, str) else lambda v: isinstance(v, str) and v in kind
+    fine = is_name if kind == NAME else lambda v: isinstance(v, str) and (kind == TEXT or v in kind)
     return _first(np.array([not fine(w) for w in words], bool)[place])
-
-
-def _is_text(value) -> bool:
-    return isinstance(value, str) or bool(pd.isna(value))
 
 
 def is_name(value) -> bool:

@@ -52,7 +52,7 @@ def filled(cases: pd.DataFrame) -> pd.DataFrame:
     """The rows with every column. Runs recorded before a column was: B rests there, A turns about its origin, every
     pose and motion is of float32 numbers, and no case is known to touch."""
     rest = {f"{name}{side}": value for side in ("", "_b") for name, value in _motion_row(Motion(), "").items()}
-    rest.update(precision="float32", touching=False)
+    rest.update(precision="float32", touching=False, index=0, attempt=0, reason="")
     missing = {name: [np.array(value) if isinstance(value, list) else value] * len(cases) for name, value in rest.items() if name not in cases}
     return cases.assign(**missing)
 

@@ -1,14 +1,17 @@
 """A stranger's files are data: nothing crashes on them, runs them, or writes outside their folder."""
 
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
-from experiments import runner
+from experiments import rows, runner
 from experiments.config import RunConfig
+from ofg import Body
 
 from tests.experiments import strangers
 
@@ -50,6 +53,7 @@ def said(jobs, folder: Path) -> list[dict]:
     for result in found:
         assert not result["trace"], f"{result['words']}\n{result['trace']}"
         assert result["code"] in (0, 1, 2) and "Traceback" not in result["err"], result
+        assert "does not fit together" not in result["err"], result  # the net under the command line
     return found
 
 
@@ -98,3 +102,113 @@ def test_malformed_runs(run, tmp_path):
     after = sorted(p for p in tmp_path.rglob("*") if tmp_path / "runs" not in p.parents and outside not in (p, *p.parents))
     assert after == before
     assert not (run.parent / "RAN").exists()
+
+
+def bench(folder, *words):
+    (result,) = said([words], folder)
+    return result
+
+
+def copied(run: Path, to: Path) -> Path:
+    return Path(shutil.copytree(run, to))
+
+
+def test_a_run_is_read_without_its_code_and_with_what_it_declared(run, tmp_path):
+    """`tables` ran what config.json names; without that, what the method declares is not to be lost."""
+    here = copied(run, tmp_path / "run")
+    result = bench(tmp_path / "a", "tables", here)
+    assert result["code"] == 0 and "they are not run" in result["err"] and not (run.parent / "RAN").exists()
+    methods = pd.read_csv(here / "tables/methods.csv").set_index("method")
+    assert methods.margin["mine"] == 0.25 and methods.guarantee["mine"] == "none"
+    assert (here / "tables/by-level.csv").read_bytes() == (run / "tables/by-level.csv").read_bytes()
+
+
+def test_a_run_that_recorded_no_declaration_says_so(run, tmp_path):
+    here = copied(run, tmp_path / "run")
+    facts = json.loads((here / "manifest.json").read_text())
+    del facts["declared"]
+    (here / "manifest.json").write_text(json.dumps(facts))
+    for command in ("tables", "report", "figures", "verify"):
+        result = bench(tmp_path / command, command, here)
+        assert result["code"] == 0 and not (run.parent / "RAN").exists(), result
+        assert command == "verify" or "Method 'mine' is not known here; its declaration is unknown" in result["err"]
+
+
+def test_trust_runs_what_the_run_names(run, tmp_path):
+    here = copied(run, tmp_path / "run")
+    (tmp_path / "mine.py").write_text(f"open({str(tmp_path / 'RAN')!r}, 'w')\n{MINE}")
+    config = json.loads((here / "config.json").read_text())
+    (here / "config.json").write_text(json.dumps({**config, "method_files": [str(tmp_path / "mine.py")]}))
+    assert bench(tmp_path / "a", "tables", here)["code"] == 0 and not (tmp_path / "RAN").exists()
+    assert bench(tmp_path / "b", "tables", here, "--trust")["code"] == 0 and (tmp_path / "RAN").exists()
+
+
+@pytest.mark.parametrize("name, command", [("tables", "tables"), ("figures", "figures"), ("tables/leaderboard.csv", "tables"),
+                                           ("tables/by-level.md", "tables"), ("report.html", "report"), ("figures/by-level.svg", "figures")])
+def test_links_in_a_run_are_not_followed(run, tmp_path, name, command):
+    """`tables` removed files in the target of a link, and wrote there."""
+    here, outside = copied(run, tmp_path / "run"), tmp_path / "outside"
+    outside.mkdir()
+    for file in ("old.csv", "old.md", "leaderboard.csv"):
+        (outside / file).write_text("mine")
+    at, folder = here / name, "." not in name
+    if at.is_dir():
+        shutil.rmtree(at)
+    at.unlink(missing_ok=True)
+    at.parent.mkdir(exist_ok=True)
+    at.symlink_to(outside if folder else outside / "old.csv")
+    result = bench(tmp_path / "said", command, here)
+    if name not in ("figures/by-level.svg", "figures", "tables/leaderboard.csv"):  # some of these are not made of this run
+        assert result["code"] == 2 and "symbolic link" in result["err"], result
+    assert sorted(p.name for p in outside.iterdir()) == ["leaderboard.csv", "old.csv", "old.md"]
+    assert all(p.read_text() == "mine" for p in outside.iterdir())
+
+
+def test_a_scene_may_not_lead_out_of_the_run(run, tmp_path):
+    """A table was written to ../../x.csv."""
+    here = copied(run, tmp_path / "in" / "run")
+    config = json.loads((here / "config.json").read_text())
+    (here / "config.json").write_text(json.dumps({**config, "stepping": {"runs": 1}}))
+    row = {"scene": "../../x", "contestant": "a", "travel": 1.0, "runs": 1, "tunnelled": 1, "share": 1.0, "low": 0.1, "high": 1.0, "us_per_step": 1.0, "detail": ""}
+    for scene, words in (("../../x", "stepping.parquet"), ("a/b", "no name of a file"), ("x" * 195, "no name of a file")):
+        pd.DataFrame([{**row, "scene": scene}]).to_parquet(here / "stepping.parquet")
+        result = bench(tmp_path / "said", "tables", here)
+        assert result["code"] == 2 and words in " ".join(result["err"].split()), result
+    assert not list(tmp_path.rglob("*x.csv"))
+
+
+def test_what_is_stated_is_not_said_to_be_certified(run, tmp_path):
+    """`explain --file` said "certified clear" of a label without a certificate."""
+    (tmp_path / "case.json").write_text(json.dumps(strangers.case()))
+    result = bench(tmp_path / "a", "explain", "--file", tmp_path / "case.json", "--out", tmp_path / "p.html")
+    assert result["code"] == 0 and "stated, not certified" in result["out"], result
+    assert "one case, not certified" in (tmp_path / "p.html").read_text()
+    name = pd.read_parquet(run / "cases.parquet").case[0]
+    result = bench(tmp_path / "b", "explain", name, "--run", run, "--save", tmp_path / "good.json", "--out", tmp_path / "q.html")
+    assert result["code"] == 0 and f"{name}: certified " in result["out"], result
+    result = bench(tmp_path / "c", "explain", "--file", tmp_path / "good.json", "--out", tmp_path / "q.html")
+    assert result["code"] == 0 and f"{name}: certified " in result["out"], result
+
+
+def test_marks_and_markup_in_a_title_are_words(run, tmp_path):
+    """@@SCRIPT@@ in a title was expanded, and [/red] raised MarkupError."""
+    here = copied(run, tmp_path / "run")
+    config = json.loads((here / "config.json").read_text())
+    (here / "config.json").write_text(json.dumps({**config, "title": "@@SCRIPT@@ [/red]"}))
+    assert bench(tmp_path / "a", "report", here)["code"] == 0
+    assert "<title>@@SCRIPT@@ [/red]: collision" in (here / "report.html").read_text()
+    result = bench(tmp_path / "b", "tables", here)
+    assert result["code"] == 0 and "@@SCRIPT@@ [/red]" in result["out"]
+
+
+def test_an_open_mesh_is_refused_when_it_is_read_back(run, tmp_path):
+    """A cube without its top was read back, and a body inside it certified clear."""
+    here = copied(run, tmp_path / "run")
+    bodies, cases = (pd.read_parquet(here / f"{name}.parquet") for name in ("bodies", "cases"))
+    open_ = Body._of("mesh", strangers.CUBE, strangers.FACES[2:], (), "open")
+    row = rows.body_row(open_)
+    pd.concat([bodies, pd.DataFrame([row])]).to_parquet(here / "bodies.parquet")
+    cases.assign(body_a=open_.digest).to_parquet(here / "cases.parquet")
+    result = bench(tmp_path / "said", "verify", here)
+    words = " ".join(result["err"].split())
+    assert result["code"] == 2 and "bodies.parquet (" in words and "the mesh is open" in words, result
