@@ -65,7 +65,7 @@ fuzz: build
 
 CALLS ?= 1000000
 fuzz-boundary: build
-	$(BIN)/cmake -S tests/ofg/native/boundary -B build/boundary -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python -DCMAKE_BUILD_TYPE=Release
+	$(BIN)/cmake -S tests/ofg/native/boundary -B build/boundary -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python -DCMAKE_BUILD_TYPE=RelWithDebInfo
 	$(BIN)/cmake --build build/boundary
 	ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 LD_PRELOAD="$$($${CXX:-c++} -print-file-name=libasan.so) $$($${CXX:-c++} -print-file-name=libstdc++.so)" \
 		$(BIN)/python tests/ofg/native/boundary.py build/boundary $(CALLS) $(SECONDS)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import sys
-from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Iterator, Optional
+from typing import Annotated, Optional
 
 import typer
 from rich.console import Console
@@ -17,6 +16,7 @@ from ofg import BodyError
 from . import config as configuration
 from . import given, scenarios
 from .given import markup
+from .reading import opened, reading
 from .store import Store, StoreError
 
 app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", pretty_exceptions_enable=False, add_completion=False,
@@ -117,7 +117,7 @@ def findings(
 
     if not results.is_dir():
         raise configuration.ConfigError(f"The folder {results} does not exist. Name the one that ofg-bench reproduce made.")
-    with _reading(results):
+    with reading(results):
         page = found.page(results)
     if into is None:
         print(page, end="")
@@ -160,8 +160,8 @@ def tables(
     from . import readme
     from . import tables as made
 
-    with _reading(run_):
-        store = _open(run_, trust)
+    with reading(run_):
+        store = opened(run_, trust)
         found = list(made.build(store))
         made.save(store, found)
     for table in found:
@@ -186,12 +186,12 @@ def compare(
     from . import compare as comparing
 
     if accept and not Store(first).has("config.json"):
-        with _reading(second):
-            comparing.reference(_open(second, trust), Store(first))
+        with reading(second):
+            comparing.reference(opened(second, trust), Store(first))
         console.print(f"{markup(first)} is now the reference, made from {markup(second)}.")
         return
-    with _reading(first, second):
-        before, after = _open(first, trust), _open(second, trust)
+    with reading(first, second):
+        before, after = opened(first, trust), opened(second, trust)
         found = comparing.compare(before, after)
     for what, (left, right) in (("cases", found.only_cases), ("methods", found.only_methods)):
         for names, folder in ((left, first), (right, second)):
@@ -231,8 +231,8 @@ def figures(run_: Run, trust: Trust = False) -> None:
     from . import figures as drawn
     from . import tables as made
 
-    with _reading(run_):
-        store = _open(run_, trust)
+    with reading(run_):
+        store = opened(run_, trust)
         curves.save(store, list(made.build(store)))
         if store.has("timings.parquet"):
             drawn.accuracy_speed(store)
@@ -244,8 +244,8 @@ def report(run_: Run, trust: Trust = False) -> None:
     """Write report.html of a finished run anew: one file with everything, for any browser."""
     from .report import report as written
 
-    with _reading(run_):
-        written(_open(run_, trust))
+    with reading(run_):
+        written(opened(run_, trust))
     console.print(f"The report is {markup(run_ / 'report.html')}.")
 
 
@@ -267,8 +267,8 @@ def explain(
     if (run_ is None) == (file is None) or (run_ is not None and name is None):
         raise configuration.ConfigError("Name a case and its run (ofg-bench explain thin_wall/100/0007 --run results/runs/quick), or a file (ofg-bench explain --file case.json).")
     _extend(methods, None)
-    with _reading(run_ or file):
-        store = _open(run_, trust) if run_ else None
+    with reading(run_ or file):
+        store = opened(run_, trust) if run_ else None
         explained.command(name, store, file, out, save, ask or bool(method), tuple(method or ()), tuple(map(str, methods or ())), trust,
                           _print_grid, console.print)
 
@@ -280,7 +280,7 @@ def verify(run_: Run) -> None:
     from .rows import cases_of
     from .truth import verify as check_labels
 
-    with _reading(run_):
+    with reading(run_):
         store = Store(run_)
         cases = store.read("cases.parquet")
         with stage("check labels", len(cases)) as advance:
@@ -355,31 +355,6 @@ def _width(text) -> int:
 def _levels(levels) -> str:
     shown = [f"{v:g}" for v in levels]
     return ", ".join(shown) if len(shown) < 9 else f"{shown[0]} .. {shown[-1]} ({len(shown)})"
-
-
-def _open(folder: Path, trust: bool) -> Store:
-    """A run to be read. Its own files are run with trust alone; what they declare was recorded."""
-    from . import declared
-
-    store = Store(folder)
-    if trust:
-        configuration.load_files(store.config)
-    for notice in () if trust else declared.know(store):
-        Console(stderr=True).print(markup(notice), highlight=False)
-    return store
-
-
-@contextmanager
-def _reading(*folders: Path) -> Iterator[None]:
-    """What a folder or a file from outside makes fail, however strange, is an error of one paragraph and no traceback."""
-    try:
-        yield
-    except (ValueError, StoreError, ImportError, OSError, typer.Exit):
-        raise
-    except Exception as error:
-        names = " or ".join(map(str, folders))
-        raise StoreError(f"What {names} holds does not fit together ({type(error).__name__}: {given.reason(error)}). It was changed or is "
-                         "damaged; take it anew from where it was made, or make it again.") from error
 
 
 def _extend(methods, scenario_files) -> None:

@@ -17,12 +17,13 @@ from baselines import registry
 from ofg import Body
 from ofg.decomposition import kept_at
 
-from .. import given, metrics, scenarios, tables
+from .. import metrics, scenarios, tables
+from ..methods import UNKNOWN
 from ..progress import stage
 from ..rows import MOTION, cases_of, filled
-from ..store import Store, StoreError
-from ..timing import FLOOR, LOST, PROBE, SIZES, situation_of, size_of
-from . import selection
+from ..store import Store
+from ..timing import SIZES, situation_of, size_of
+from . import lanes, selection
 from .certificate import drawable
 
 CODES = {
@@ -40,11 +41,6 @@ SHOWN = 24  # cases of each kind that the gallery can draw for each method
 BYTES = 8_000_000  # of bodies, before compression: what a page may weigh
 CASES = 3_000  # that a page can draw: what its making may take
 EXACT = 5_000  # vertices up to which a body is never rounded
-NATIVE = {
-    "apart": ("overlap", "apart"),
-    "overlapping": ("overlap", "deep"),
-    "flight": ("translation", "hit"),
-}  # of experiments/native.py: ours
 SELECTED = 2_000  # faces up to which a selection is drawn; of k = inf on a large mesh the page only says how many
 OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
@@ -63,7 +59,7 @@ def of_run(store: Store, made_tables=None) -> dict:
         **_observations(found, rows),
     }
     made["methods"] = [_method(label, made["run"]["versions"]) for label in made["labels"]]
-    made["lanes"] = {**(_lanes(store, rows) if store.has("timings.parquet") else {}), **_native(store, set(made["labels"]))}
+    made["lanes"] = {**(lanes.python(store, rows) if store.has("timings.parquet") else {}), **lanes.native(store, set(made["labels"]))}
     made["tables"] = [_table(t, found) for t in made_tables or tables.build(store)]
     return {**made, **_shapes(store, rows, found)}
 
@@ -168,7 +164,7 @@ def _method(label: str, versions: dict) -> dict:
             "configuration": "",
             "solid": None,
             "margin": 0,
-            "guarantee": tables.UNKNOWN,
+            "guarantee": UNKNOWN,
             "answers": [],
             "bodies": [],
         }
@@ -216,50 +212,6 @@ def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
         made["detail"].append([at[said].tolist(), [known.setdefault(d, len(known)) for d in part.detail[said]]])
     made["details"] = list(known)
     return made
-
-
-def _lanes(store: Store, rows: pd.DataFrame) -> dict:
-    """lane -> method -> {cases, ns: medians over rounds; floors: [question, faces, situation, ns]}; "python" where no lane is
-    named."""
-    place = {case: i for i, case in enumerate(rows.case)}
-    times = store.read("timings.parquet")
-    times = times[~times.method.isin([PROBE, LOST])]
-    times = times.assign(ns=[float(np.median(r)) for r in times.rounds_ns], lane=times.lane if "lane" in times else "python")
-    lanes: dict[str, dict] = {}
-    for (lane, label), part in times.groupby(["lane", "method"], sort=False):
-        floor, real = part[part.case == FLOOR], part[part.case != FLOOR]
-        lanes.setdefault(lane, {})[label] = {
-            "cases": [place[c] for c in real.case],
-            "ns": real.ns.tolist(),
-            "build": real.build_ns.tolist(),
-            "floors": floor[["question", "faces", "situation", "ns"]].values.tolist(),
-        }
-    return lanes
-
-
-def _native(store: Store, labels: set[str]) -> dict:
-    """The native lane of a run that has a native.csv (python -m experiments.native --out RUN).
-
-    It times pairs of its own of given sizes, so no case of the run stands behind it.
-    """
-    if not store.has("native.csv"):
-        return {}
-    lane: dict[str, dict] = {}
-    times = _native_rows(store)
-    times = times.assign(sizes=size_of(times.faces))
-    for row in times[times.method.isin(labels) & times.native.notna() & times.situation.isin(NATIVE)].itertuples():
-        lane.setdefault(row.method, {"cases": [], "bins": []})["bins"].append([*NATIVE[row.situation], row.sizes, row.native])
-    return {"native": lane} if lane else {}
-
-
-def _native_rows(store: Store) -> pd.DataFrame:
-    path, wanted = store.folder / "native.csv", {"method": str, "faces": float, "native": float, "situation": str}
-    given.regular(path, "The file")
-    try:
-        return pd.read_csv(path, dtype=wanted, usecols=list(wanted))
-    except (ValueError, OSError) as error:
-        raise StoreError(f"{path} is no table of the native lane ({given.reason(error)}). Make it again with: "
-                         f"python -m experiments.native --out {store.folder}, or remove it.") from error
 
 
 def _table(table, found: pd.DataFrame) -> dict:

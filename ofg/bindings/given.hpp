@@ -68,6 +68,18 @@ inline void check_motions(const Doubles& rows, std::size_t n, const char* what) 
   }
   require(fine, std::string(what) + " holds a length, an axis or an angle that is out of range");
 }
+// What single precision is given is relative; beyond its range it would be infinite.
+inline void check_float(const double* pa, const double* pb, const double* ma, const double* mb, std::size_t n) {
+  bool fine = true;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 4; j < pose_columns; ++j)
+      fine &= std::abs(pa[pose_columns * i + j] - pb[pose_columns * i + j]) <= longest_float;
+    const double *m = ma + motion_columns * i, *o = mb + motion_columns * i;
+    for (std::size_t j = 0; j < 3; ++j) fine &= std::abs(m[j] - o[j]) <= longest_float;
+    fine &= largest(m + 7, 3) <= longest_float && largest(o + 7, 3) <= longest_float;
+  }
+  require(fine, "a relative position, a displacement or a point turned about is out of the range of single precision");
+}
 inline void check_mesh(const Doubles& v, const Ints& f) {
   check_width(v, 3, "vertices");
   check_finite(v, "vertices");

@@ -127,6 +127,8 @@ struct Prepared {
     check_options(o);
     a.check(single), b.check(single);
     if (single)
+      check_float(poses.data(), poses.data() + pose_columns, motions.data(), motions.data() + motion_columns, 1);
+    if (single)
       workspace<float>().reserve(a.coarse, b.coarse);
     else
       workspace<double>().reserve(a.fine, b.fine);
@@ -194,6 +196,7 @@ nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubl
   check_motions(ma, n, "motions_a"), check_motions(mb, n, "motions_b");
   check_options(o);
   a.check(single), b.check(single);
+  if (single) check_float(pa.data(), pb.data(), ma.data(), mb.data(), n);
   require(threads >= 1 && threads <= most_threads, "threads must be 1 to " + std::to_string(most_threads));
   const Algorithm algorithm = algorithm_of(how);
   std::vector<ofg::Answer> answers(n);
