@@ -315,6 +315,12 @@ def _tags(row: dict) -> dict:
 def _truth(row: dict) -> Truth:
     t_lo, t_hi, gap = (math.nan if row.get(key) is None else float(row[key]) for key in ("t_lo", "t_hi", "gap"))
     certificate = row.get("certificate", "{}")
+    certificate = certificate_of(certificate) if isinstance(certificate, str) else certificate
+    if not isinstance(certificate, dict):
+        raise ValueError("certificate is no JSON object")
+    for name in ("label", "start", "end"):
+        if row.get(name, "uncertain") not in record.LABELS:
+            raise ValueError(f"{name} is {given.shown(repr(row[name]))}, and not one of {', '.join(record.LABELS)}")
     return Truth(
         row["label"],
         t_lo,
@@ -322,8 +328,8 @@ def _truth(row: dict) -> Truth:
         row.get("start", "uncertain"),
         row.get("end", "uncertain"),
         gap,
-        row.get("reason", ""),
-        certificate_of(certificate) if isinstance(certificate, str) else certificate,
+        str(row.get("reason", "")),
+        certificate,
         bool(row.get("touching", False)),
     )
 

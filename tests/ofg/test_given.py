@@ -83,3 +83,13 @@ def test_a_body_out_of_the_range_of_floats_has_no_float_form():
 def test_threads_are_a_whole_number_from_1_to_256(threads):
     with pytest.raises(ValueError, match="threads"):
         ofg.discrete_many(CUBE, CUBE, [ofg.Pose()], [ofg.Pose()], threads=threads)
+
+
+def test_pieces_larger_than_their_whole_find_room():
+    """Room was made for pairs of pieces, and none where one body had no pieces: a piece larger than its whole wrote past it."""
+    ball = Body.convex(np.random.default_rng(1).normal(size=(300, 3)))
+    odd, plain = _core.Solid(V, F, False, [ball.vertices], [ball.faces]), _core.Solid(V, F, False, [], [])
+    poses, motions = np.array([[1.0, 0, 0, 0, 0, 0, 0]]), np.array([[0.1, 0, 0, 0, 0, 1, 0.5, 0, 0, 0]])
+    options = _core.Options()
+    options.k = 10**6
+    assert _core.ask_many(odd, plain, poses, poses, motions, motions, options, 0, True, False, 1)[0].all()
