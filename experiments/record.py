@@ -68,7 +68,8 @@ def facts(path: Path) -> dict:
 def read(path: Path, name: str = "") -> pd.DataFrame:
     """The rows of a parquet file, checked if it is one of COLUMNS. RecordError, in one sentence, for any other file."""
     frame = _rows(path)
-    if (why := wrong(frame, name)) is not None:
+    why = "it has no rows" if name in UNIQUE and frame.empty else wrong(frame, name)
+    if why is not None:
         raise _damaged(path, why)
     return frame
 
