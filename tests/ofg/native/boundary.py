@@ -106,7 +106,7 @@ class Calls:
     def one(self, kept: list):
         return kept[self.g.random.integers(len(kept))] if kept and self.g.often(0.995) else None
 
-    def options(self):
+    def options(self, *rows):
         o = self.core.Options()
         for name in ("k", "toi", "broad", "concave", "nearest", "order", "iterations", "piece_times", "selection_times"):
             if self.g.often(0.5):
@@ -115,19 +115,22 @@ class Calls:
             setattr(o, name, self.g.often(0.5))
         if self.g.often(0.2):
             o.arc_tolerance = self.g.number()
-        o.arc_tolerance = max(o.arc_tolerance, 1e-3) if 0 < o.arc_tolerance < 1 else o.arc_tolerance  # fewer parts, soon done
+        if 0 < o.arc_tolerance < 1:  # millions of parts of a step are no fault, but take minutes
+            soon = all(isinstance(r, np.ndarray) and r.dtype == float and (np.abs(r[np.isfinite(r)]) < 10).all() for r in rows)
+            o.arc_tolerance = max(o.arc_tolerance, 1e-2) if soon else 0.0
         return o
 
     def ask_many(self):
         n = int(self.g.random.integers(0, 4))
         rows = (self.g.poses(n), self.g.poses(n), self.g.motions(n), self.g.motions(n))
-        self.core.ask_many(self.one(self.solids), self.one(self.solids), *rows, self.options(), self.g.whole(), self.g.often(0.5), self.g.often(0.5), self.threads())
+        self.core.ask_many(self.one(self.solids), self.one(self.solids), *rows, self.options(*rows), self.g.whole(), self.g.often(0.5), self.g.often(0.5), self.threads())
 
     def threads(self) -> int:
         return self.g.whole() if self.g.often(0.02) else 1
 
     def prepared(self):
-        made = self.core.Prepared(self.one(self.solids), self.one(self.solids), self.g.poses(2), self.g.motions(2), self.options(), self.g.whole(), self.g.often(0.5), self.g.often(0.5))
+        rows = self.g.poses(2), self.g.motions(2)
+        made = self.core.Prepared(self.one(self.solids), self.one(self.solids), *rows, self.options(*rows), self.g.whole(), self.g.often(0.5), self.g.often(0.5))
         made(), made()
 
     def strays(self):
