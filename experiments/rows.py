@@ -75,7 +75,7 @@ def body_of(row) -> Body:
     return body
 
 
-def certificate_of(text: str):
+def _certificate(text: str):
     """The stored certificate; the text itself where it is no JSON, which the checker refuses."""
     try:
         return json.loads(text)
@@ -116,7 +116,7 @@ def _case(row, made) -> tuple[Case, Truth]:
                   Pose(row.quaternion_b, row.position_b), Motion(row.displacement, row.axis, row.angle, row.about),
                   Motion(row.displacement_b, row.axis_b, row.angle_b, row.about_b))
     truth = Truth(row.label, row.t_lo, row.t_hi, row.start, row.end, row.gap, row.reason,
-                  certificate_of(row.certificate), bool(row.touching))
+                  _certificate(row.certificate), bool(row.touching))
     return Case(row.case, row.scenario, row.level, row.index, query, tags_of(row.tags), row.precision), truth
 
 

@@ -29,7 +29,7 @@ from .. import answering, declared, given, metrics, pool, record
 from ..answering import COLUMNS
 from ..case import Case
 from ..config import ConfigError, RunConfig, closest, load, load_files
-from ..rows import body_of, body_row, case_row, cases_of, certificate_of, tags_of
+from ..rows import body_of, body_row, case_row, cases_of, _certificate, tags_of
 from ..store import Store, StoreError
 from ..truth.label import Truth
 
@@ -315,7 +315,7 @@ def _tags(row: dict) -> dict:
 def _truth(row: dict) -> Truth:
     t_lo, t_hi, gap = (math.nan if row.get(key) is None else float(row[key]) for key in ("t_lo", "t_hi", "gap"))
     certificate = row.get("certificate", "{}")
-    certificate = certificate_of(certificate) if isinstance(certificate, str) else certificate
+    certificate = _certificate(certificate) if isinstance(certificate, str) else certificate
     if not isinstance(certificate, dict):
         raise ValueError("certificate is no JSON object")
     for name in ("label", "start", "end"):
