@@ -5,7 +5,7 @@ RUN ?= results/runs/quick
 PRESET ?= quick
 NATIVE := CMakeLists.txt pyproject.toml $(shell find ofg experiments/truth -name '*.[hc]pp' -o -name CMakeLists.txt)
 
-.PHONY: help env build quick test engines native bench-ofg bench-truth crosscheck attack fuzz reproduce clean
+.PHONY: help env build quick test engines native bench-ofg bench-truth crosscheck attack fuzz fuzz-boundary reproduce clean
 help:
 	@echo "make quick        set up, build, run the main job in a few minutes, print its tables"
 	@echo "make test         set up, build, run every test"
@@ -17,6 +17,7 @@ help:
 	@echo "make crosscheck   ask CGAL's exact kernel and dense sampling about the labels"
 	@echo "make attack       corrupt thousands of certificates: the checker must refuse them"
 	@echo "make fuzz         a million random queries under the address and undefined-behaviour sanitizers"
+	@echo "make fuzz-boundary  a million calls with garbage into both native modules under the same sanitizers"
 	@echo "make clean        remove the environment and the build (never a run)"
 
 env: .venv/.ready
@@ -61,6 +62,13 @@ fuzz: build
 	$(BIN)/cmake -S tests/ofg/native -B build/fuzz -DCMAKE_BUILD_TYPE=Release
 	$(BIN)/cmake --build build/fuzz --target fuzz
 	build/fuzz/fuzz $(QUERIES) $(SECONDS)
+
+CALLS ?= 1000000
+fuzz-boundary: build
+	$(BIN)/cmake -S tests/ofg/native/boundary -B build/boundary -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python -DCMAKE_BUILD_TYPE=RelWithDebInfo
+	$(BIN)/cmake --build build/boundary
+	ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 LD_PRELOAD="$$($${CXX:-c++} -print-file-name=libasan.so) $$($${CXX:-c++} -print-file-name=libstdc++.so)" \
+		$(BIN)/python tests/ofg/native/boundary.py build/boundary $(CALLS) $(SECONDS)
 
 reproduce: build
 	$(BIN)/ofg-bench reproduce

@@ -8,14 +8,15 @@ from typing import Annotated, Optional
 
 import typer
 from rich.console import Console
-from rich.markup import escape
 from rich.table import Table as Grid
 
 from baselines import registry
 from ofg import BodyError
 
 from . import config as configuration
-from . import scenarios
+from . import given, scenarios
+from .given import markup
+from .reading import opened, reading
 from .store import Store, StoreError
 
 app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", pretty_exceptions_enable=False, add_completion=False,
@@ -25,8 +26,9 @@ A run is one folder: `ofg-bench run quick` makes cases, certifies them, asks eve
 `ofg-bench list` shows what there is; a configuration of your own starts from `ofg-bench preset quick > mine.toml`.""")
 console = Console(width=None if sys.stdout.isatty() else 160)  # nobody folds what goes into a file
 Run = Annotated[Path, typer.Argument(help="folder of a run")]
-Workers = Annotated[Optional[int], typer.Option(min=1, help="processes for all but the timing [default: one per core]")]
+Workers = Annotated[Optional[int], typer.Option(min=1, max=256, help="processes for all but the timing [default: one per core]")]
 SkipMissing = Annotated[bool, typer.Option("--skip-missing", help="leave rows of engines that are not installed empty")]
+Trust = Annotated[bool, typer.Option("--trust", help="run the Python files that the run names as its own methods and scenarios")]
 Methods = Annotated[Optional[list[Path]], typer.Option("--methods", help="Python file with methods of your own (METHODS = [...]); may be repeated")]
 Scenarios = Annotated[Optional[list[Path]], typer.Option("--scenarios", help="Python file with scenarios of your own (SCENARIO = ...); may be repeated")]
 
@@ -64,7 +66,7 @@ def run(
     source: Annotated[str, typer.Argument(metavar="CONFIG", help="the name of a preset or experiment, or the path of a .toml file")],
     out: Annotated[Optional[Path], typer.Option(help="folder of the run [default: results/runs/CONFIG]")] = None,
     workers: Workers = None,
-    seed: Annotated[Optional[int], typer.Option(min=0, help="another seed than the configuration's")] = None,
+    seed: Annotated[Optional[int], typer.Option(min=0, max=configuration.MOST_SEED, help="another seed than the configuration's")] = None,
     skip_missing: SkipMissing = False,
     methods: Methods = None,
     scenarios_: Scenarios = None,
@@ -99,7 +101,7 @@ def reproduce(
     for name, config in chosen.items():
         entries.check(config, _named(name))
     for i, (name, config) in enumerate(chosen.items(), 1):
-        console.print(f"[bold]{i} of {len(names)}: {name}[/] {config.title}", highlight=False)
+        console.print(f"[bold]{i} of {len(names)}: {name}[/] {markup(config.title)}", highlight=False)
         _say_missing(config)
         runner.run(config, into / name, workers)
     if everything:
@@ -108,7 +110,7 @@ def reproduce(
         console.print("[bold]and sizes: misses and operations by size, depth and k[/]")
         sizes.run(into / "sizes")
     findings(into, into / "README.md")
-    console.print(f"All of it is in {into}: tables, figures, report.html, manifest.json and the rows of each run.")
+    console.print(f"All of it is in {markup(into)}: tables, figures, report.html, manifest.json and the rows of each run.")
 
 
 @app.command()
@@ -121,12 +123,13 @@ def findings(
 
     if not results.is_dir():
         raise configuration.ConfigError(f"The folder {results} does not exist. Name the one that ofg-bench reproduce made.")
-    page = found.page(results)
+    with reading(results):
+        page = found.page(results)
     if into is None:
         print(page, end="")
         return
     into.write_text(page)
-    console.print(f"The findings are in {into}.")
+    console.print(f"The findings are in {markup(into)}.")
 
 
 @app.command()
@@ -148,12 +151,12 @@ def _run(config: configuration.RunConfig, folder: Path, workers: int | None, ski
         if table.headline:
             _print_table(table)
     if others := ", ".join(table.name for table in made if not table.headline):
-        console.print(f"{len(made)} tables were made; not printed here: {others}. Print them with: ofg-bench tables {folder} --only NAME\n")
+        console.print(f"{len(made)} tables were made; not printed here: {others}. Print them with: ofg-bench tables {markup(folder)} --only NAME\n")
     if config.stepping:
-        console.print(f"Tables (CSV, Markdown, LaTeX) are in {folder / 'tables'}, all counts in {folder / 'stepping.parquet'}.")
+        console.print(f"Tables (CSV, Markdown, LaTeX) are in {markup(folder / 'tables')}, all counts in {markup(folder / 'stepping.parquet')}.")
     else:
-        console.print(f"Tables (CSV, Markdown, LaTeX) are in {folder / 'tables'}, figures (SVG, PNG) in {folder / 'figures'}; every case with its "
-                      f"certificate in {folder / 'cases.parquet'}, every answer in {folder / 'observations.parquet'}.")
+        console.print(f"Tables (CSV, Markdown, LaTeX) are in {markup(folder / 'tables')}, figures (SVG, PNG) in {markup(folder / 'figures')}; every case with its "
+                      f"certificate in {markup(folder / 'cases.parquet')}, every answer in {markup(folder / 'observations.parquet')}.")
 
 
 @app.command()
@@ -161,19 +164,21 @@ def tables(
     run_: Run,
     only: Annotated[str, typer.Option(help="print only tables whose name contains this")] = "",
     into: Annotated[Optional[Path], typer.Option(help="also put them into this Markdown page, between its markers `<!-- table NAME -->` and `<!-- end -->`")] = None,
+    trust: Trust = False,
 ) -> None:
     """Build the tables of a finished run anew from its rows, and print them."""
     from . import readme
     from . import tables as made
 
-    store = _open(run_)
-    found = list(made.build(store))
-    made.save(store, found)
+    with reading(run_):
+        store = opened(run_, trust)
+        found = list(made.build(store))
+        made.save(store, found)
     for table in found:
         if only in table.name:
             _print_table(table)
     if into:
-        into.write_text(readme.fill(into.read_text(), run_ / "tables"))
+        into.write_text(readme.fill(given.text(into, "The page"), run_ / "tables"))
 
 
 @app.command()
@@ -182,6 +187,7 @@ def compare(
     second: Annotated[Path, typer.Argument(help="folder of a run: after")],
     show: Annotated[int, typer.Option(min=0, help="print at most so many answers that moved")] = 40,
     accept: Annotated[bool, typer.Option("--accept", help="afterwards make SECOND the reference: FIRST then holds its answers and labels, without certificates and times")] = False,
+    trust: Trust = False,
 ) -> None:
     """Say what changed from one run to another: in accuracy, to the case, and in time, paired by case.
 
@@ -190,19 +196,21 @@ def compare(
     from . import compare as comparing
 
     if accept and not Store(first).has("config.json"):
-        comparing.reference(_open(second), Store(first))
-        console.print(f"{first} is now the reference, made from {second}.")
+        with reading(second):
+            comparing.reference(opened(second, trust), Store(first))
+        console.print(f"{markup(first)} is now the reference, made from {markup(second)}.")
         return
-    before, after = _open(first), _open(second)
-    found = comparing.compare(before, after)
+    with reading(first, second):
+        before, after = opened(first, trust), opened(second, trust)
+        found = comparing.compare(before, after)
     for what, (left, right) in (("cases", found.only_cases), ("methods", found.only_methods)):
         for names, folder in ((left, first), (right, second)):
             if names:
-                console.print(f"[bold]Only in {folder}[/]: {len(names)} {what}: {', '.join(names[:8])}{', ...' if len(names) > 8 else ''}", highlight=False)
+                console.print(f"[bold]Only in {markup(folder)}[/]: {len(names)} {what}: {markup(', '.join(names[:8]))}{', ...' if len(names) > 8 else ''}", highlight=False)
     if found.remade:
-        console.print(f"{len(found.remade)} cases have other bodies, poses or motions in {second} and are not compared; {len(found.changed)} of them "
+        console.print(f"{len(found.remade)} cases have other bodies, poses or motions in {markup(second)} and are not compared; {len(found.changed)} of them "
                       f"differ by more than rounding, so they ask a different question: "
-                      f"{', '.join(found.remade[:8])}{', ...' if len(found.remade) > 8 else ''}", highlight=False)
+                      f"{markup(', '.join(found.remade[:8]))}{', ...' if len(found.remade) > 8 else ''}", highlight=False)
     for title, frame in (("Labels that moved: the truth of the two runs differs.", found.labels), ("Answers that moved.", found.answers)):
         if len(frame):
             _print_grid(title, frame.columns, list(frame.head(show).itertuples(index=False)), f"{min(show, len(frame))} of {len(frame)}.")
@@ -219,7 +227,7 @@ def compare(
                   f"{f'; {len(found.changed)} cases ask a different question' if found.changed else ''}.", highlight=False)
     if accept:
         comparing.reference(after, before)
-        console.print(f"{first} is now the reference, made from {second}.")
+        console.print(f"{markup(first)} is now the reference, made from {markup(second)}.")
         return
     raise typer.Exit(0 if found.identical else 1)
 
@@ -233,26 +241,28 @@ def _moved(before, after) -> str:
 
 
 @app.command()
-def figures(run_: Run) -> None:
+def figures(run_: Run, trust: Trust = False) -> None:
     """Draw the figures of a finished run anew."""
     from . import curves
     from . import figures as drawn
     from . import tables as made
 
-    store = _open(run_)
-    curves.save(store, list(made.build(store)))
-    if store.has("timings.parquet"):
-        drawn.accuracy_speed(store)
-    console.print(f"Figures are in {run_ / 'figures'}.")
+    with reading(run_):
+        store = opened(run_, trust)
+        curves.save(store, list(made.build(store)))
+        if store.has("timings.parquet"):
+            drawn.accuracy_speed(store)
+    console.print(f"Figures are in {markup(run_ / 'figures')}.")
 
 
 @app.command()
-def report(run_: Run) -> None:
+def report(run_: Run, trust: Trust = False) -> None:
     """Write report.html of a finished run anew: one file with everything, for any browser."""
     from .report import report as written
 
-    written(_open(run_))
-    console.print(f"The report is {run_ / 'report.html'}.")
+    with reading(run_):
+        written(opened(run_, trust))
+    console.print(f"The report is {markup(run_ / 'report.html')}.")
 
 
 @app.command()
@@ -265,6 +275,7 @@ def explain(
     ask: Annotated[bool, typer.Option("--ask", help="ask the methods anew, each in a process of its own")] = False,
     method: Annotated[Optional[list[str]], typer.Option("--method", help="which to ask with --ask; may be repeated [default: those of the run or file]")] = None,
     methods: Methods = None,
+    trust: Trust = False,
 ) -> None:
     """Show one case: a page with its bodies in 3D and its certificate, and a table of what every method said."""
     from .report import explain as explained
@@ -272,7 +283,10 @@ def explain(
     if (run_ is None) == (file is None) or (run_ is not None and name is None):
         raise configuration.ConfigError("Name a case and its run (ofg-bench explain thin_wall/100/0007 --run results/runs/quick), or a file (ofg-bench explain --file case.json).")
     _extend(methods, None)
-    explained.command(name, run_, file, out, save, ask or bool(method), method or (), tuple(map(str, methods or ())), _print_grid, console.print)
+    with reading(run_ or file):
+        store = opened(run_, trust) if run_ else None
+        explained.command(name, store, file, out, save, ask or bool(method), tuple(method or ()), tuple(map(str, methods or ())), trust,
+                          _print_grid, console.print)
 
 
 @app.command()
@@ -280,7 +294,7 @@ def verify(
     run_: Run,
     ask: Annotated[str, typer.Option(help="ask the methods again about this many random cases, or about all")] = "",
     ask_seed: Annotated[Optional[int], typer.Option(min=0, help="seed of that random choice")] = None,
-    trust: Annotated[bool, typer.Option("--trust", help="run the Python files that the run names")] = False,
+    trust: Trust = False,
     workers: Workers = None,
 ) -> None:
     """Check a run: its files, its rows, every case drawn and proved again, and answers with --ask.
@@ -292,8 +306,10 @@ def verify(
     if ask not in ("", "all") and not (ask.isascii() and ask.isdigit()):
         raise configuration.ConfigError(f"--ask takes a number of cases or the word all, not '{ask}'.")
     count = None if not ask else -1 if ask == "all" else int(ask)
-    found = verification.verify(Store(run_), count, trust, workers, ask_seed)
-    console.print(str(found), highlight=False, markup=False)
+    with reading(run_):
+        found = verification.verify(Store(run_), count, trust, workers, ask_seed)
+    for line in str(found).splitlines():
+        console.print(given.printable(line), highlight=False, markup=False)
     raise typer.Exit(0 if found.ok else 1)
 
 
@@ -316,7 +332,7 @@ def _say_missing(config: configuration.RunConfig) -> None:
 
     configuration.load_files(config)
     for reason in runner.missing(config.optional_methods):
-        console.print(f"Its rows stay empty: {reason}", highlight=False)
+        console.print(f"Its rows stay empty: {markup(reason)}", highlight=False)
 
 
 def _print_table(table) -> None:
@@ -342,14 +358,14 @@ def _strips(text) -> list[list[str]]:
 
 def _print_grid(title: str, columns, rows, caption: str = "") -> None:
     """Columns of numbers are aligned to the right. The first column is never folded."""
-    console.print(f"[bold]{title}[/]", highlight=False)
+    console.print(f"[bold]{markup(title)}[/]", highlight=False)
     grid = Grid(box=None, pad_edge=False, header_style="bold")
     for i, column in enumerate(columns):
-        grid.add_column(str(column).strip(), justify="left" if any(str(row[i])[:1].isalpha() and row[i] != "all" for row in rows) else "right", no_wrap=i == 0, overflow="fold")
+        grid.add_column(markup(column).strip(), justify="left" if any(str(row[i])[:1].isalpha() and row[i] != "all" for row in rows) else "right", no_wrap=i == 0, overflow="fold")
     for row in rows:
-        grid.add_row(*map(str, row))
+        grid.add_row(*map(markup, row))
     console.print(grid)
-    console.print(caption, style="dim", highlight=False)
+    console.print(markup(caption), style="dim", highlight=False)
     console.print()
 
 
@@ -360,12 +376,6 @@ def _width(text) -> int:
 def _levels(levels) -> str:
     shown = [f"{v:g}" for v in levels]
     return ", ".join(shown) if len(shown) < 9 else f"{shown[0]} .. {shown[-1]} ({len(shown)})"
-
-
-def _open(folder: Path) -> Store:
-    store = Store(folder)
-    configuration.load_files(store.config)
-    return store
 
 
 def _extend(methods, scenario_files) -> None:
@@ -379,8 +389,8 @@ def main() -> None:
     """Entry point: errors of the user are one paragraph and exit code 2, not a traceback."""
     try:
         app()
-    except (ValueError, StoreError, BodyError, ImportError) as error:
-        Console(stderr=True).print(f"[bold red]Error.[/] {escape(str(error))}", highlight=False, soft_wrap=False)
+    except (ValueError, StoreError, BodyError, ImportError, OSError) as error:
+        Console(stderr=True).print(f"[bold red]Error.[/] {markup(error)}", highlight=False, soft_wrap=False)
         sys.exit(2)
     except KeyboardInterrupt:
         Console(stderr=True).print("\nInterrupted. What is finished is kept; say the same command again to go on.")

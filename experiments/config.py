@@ -11,9 +11,13 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from . import given
+
 PRESETS = Path(__file__).parent / "presets"
 CATALOGUE = Path(__file__).parent / "catalogue"
 LONGEST = 1e6  # seconds, of a limit: eleven days; the watchdog takes no more than some hundred years
+MOST_BYTES = 1_000_000  #: of a configuration
+MOST_CASES, MOST_SEED = 10**6, 2**63 - 1
 GROUP = "ofg.experiments"  # entry points of installed packages that bring experiments: the path of a .toml file, or of a folder of them
 
 
@@ -22,23 +26,23 @@ class ConfigError(ValueError):
 
 
 class _Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, str_max_length=4000, allow_inf_nan=False)
 
 
 class ScenarioChoice(_Strict):
     """One family of cases: how many at each of which levels of difficulty (all of them if none are named)."""
 
     name: str
-    cases: int = Field(ge=1, description="cases at each level")
+    cases: int = Field(ge=1, le=MOST_CASES, description="cases at each level")
     levels: tuple[float, ...] | None = None
 
 
 class TimingChoice(_Strict):
     """How time is measured; `cases` 0 leaves it out."""
 
-    cases: int = Field(default=24, ge=0, description="cases timed in each bin of question, size and situation")
-    rounds: int = Field(default=9, ge=3, description="how often each case is timed by each method")
-    warmup: int = Field(default=2, ge=0, description="rounds thrown away first")
+    cases: int = Field(default=24, ge=0, le=MOST_CASES, description="cases timed in each bin of question, size and situation")
+    rounds: int = Field(default=9, ge=3, le=MOST_CASES, description="how often each case is timed by each method")
+    warmup: int = Field(default=2, ge=0, le=MOST_CASES, description="rounds thrown away first")
     seconds: float = Field(default=4.0, gt=0, description="a method that takes longer for its rounds of a bin takes part in fewer, at least 3")
     reference: str = Field(default="", description="method that ratios are taken to [the run's first]")
 
@@ -50,7 +54,7 @@ Value = Literal["misses", "false alarms", "wrong", "tunnelled", "answered", "tim
 class TableChoice(_Strict):
     """A table particular to an experiment: a row per method, a column per value of `columns`, `value` in the cells."""
 
-    name: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="its files are tables/NAME.csv, .md and .tex")
+    name: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", max_length=100, description="its files are tables/NAME.csv, .md and .tex")
     title: str
     note: str = ""
     value: Value
@@ -63,7 +67,7 @@ class TableChoice(_Strict):
 class SteppingChoice(_Strict):
     """The stepping track: engines as simulators, in scenes of experiments/stepping instead of scenarios."""
 
-    runs: int = Field(ge=1, description="runs for each cell, each at a start phase of its own")
+    runs: int = Field(ge=1, le=MOST_CASES, description="runs for each cell, each at a start phase of its own")
     scenes: tuple[str, ...] = Field(default=(), description="names of scenes [all]")
     travels: tuple[float, ...] = Field(default=(), description="thicknesses per step [those of the track]")
 
@@ -76,7 +80,7 @@ class RunConfig(_Strict):
 
     title: str = ""
     about: str = Field(default="", description="the question that it answers, in a sentence")
-    seed: int = Field(ge=0)
+    seed: int = Field(ge=0, le=MOST_SEED)
     methods: tuple[str, ...] = ()
     optional_methods: tuple[str, ...] = ()
     scenarios: tuple[ScenarioChoice, ...] = ()
@@ -142,19 +146,37 @@ def path_of(source: str) -> Path:
 def load(source: str) -> RunConfig:
     """A preset's or an experiment's name, or the path of a TOML file. Raises ConfigError."""
     path = path_of(source)
-    if not path.is_file():
-        raise ConfigError(f"The configuration file {path} does not exist. Copy one of the presets "
+    if not path.exists():
+        raise ConfigError(f"The configuration file {given.shown(path)} does not exist. Copy one of the presets "
                           "(ofg-bench preset quick > mine.toml) and start from there.")
+    what = "The configuration file"
+    text = given.text(path, what, MOST_BYTES)
     try:
-        return RunConfig.model_validate(tomllib.loads(path.read_text()))
-    except (OSError, UnicodeDecodeError, RecursionError) as error:
-        reason = {UnicodeDecodeError: "it is not UTF-8", RecursionError: "it is nested too deeply"}.get(type(error), str(error))
-        raise ConfigError(f"The configuration file {path} cannot be read: {reason}.") from error
+        return parsed(tomllib.loads(text), path, what)
     except tomllib.TOMLDecodeError as error:
-        raise ConfigError(f"The configuration file {path} is not valid TOML: {error}.") from error
+        raise ConfigError(f"{what} {path} is not valid TOML: {given.reason(error)}.") from error
+    except RecursionError as error:
+        raise ConfigError(f"{what} {path} is nested too deeply to be read.") from error
+    except ConfigError:
+        raise
+    except ValueError as error:  # a whole number of thousands of digits
+        raise ConfigError(f"{what} {path} holds a number that cannot be read: {given.reason(error)}.") from error
+
+
+def parsed(content: dict | str, path: Path, what: str = "The file") -> RunConfig:
+    """The configuration that a table, or the text of a JSON file, holds. ConfigError, which names the file and the fields."""
+    try:
+        return RunConfig.model_validate_json(content) if isinstance(content, str) else RunConfig.model_validate(content)
     except ValidationError as error:
-        raise ConfigError(f"The configuration file {path} has {error.error_count()} wrong field(s): " + "; ".join(
-            f"{': '.join(['.'.join(map(str, e['loc']))] * bool(e['loc']) + [e['msg'][:1].lower() + e['msg'][1:]])}" for e in error.errors()) + ".") from error
+        raise ConfigError(f"{what} {path} has {error.error_count()} wrong field(s): {given.clipped(_wrong(error), 1000)}.") from error
+
+
+def _wrong(error: ValidationError) -> str:
+    said = []
+    for e in error.errors(include_url=False, include_context=False, include_input=False)[:10]:
+        where = given.shown(".".join(map(str, e["loc"])))
+        said.append(f"{where}: " * bool(where) + given.shown(e["msg"][:1].lower() + e["msg"][1:]))
+    return "; ".join(said)
 
 
 def load_files(config: RunConfig) -> None:

@@ -12,7 +12,7 @@ import pandas as pd
 from baselines import registry
 
 from . import scenarios
-from .figures import COLOURS, GRAIN, MARKERS
+from .figures import COLOURS, GRAIN, MARKERS, drawn
 from .store import Store
 from .tables import COUNTS, Table
 
@@ -25,12 +25,12 @@ VALUES = {"net time": ("median", "net time per query, µs", 1e-3), "gross time":
 
 def save(store: Store, tables: list[Table]) -> None:
     """figures/NAME.svg and .png of every table that runs along an axis."""
+    known = scenarios.scenarios()
     for table in filter(drawable, tables):
         names = table.choice.scenarios or [c.name for c in store.config.scenarios]
-        figure = draw(table, AXES[table.choice.columns] or " / ".join(dict.fromkeys(scenarios.get(name).axis for name in names)))
+        figure = draw(table, AXES[table.choice.columns] or " / ".join(dict.fromkeys(known[name].axis for name in names if name in known)))
         for suffix in ("svg", "png"):
-            path = store.path("figures", f"{table.name}.{suffix}")
-            figure.savefig(path, dpi=160, bbox_inches="tight", metadata={"Date": None} if suffix == "svg" else None)
+            store.write_bytes(drawn(figure, suffix), "figures", f"{table.name}.{suffix}")
         plt.close(figure)
 
 

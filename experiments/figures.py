@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -29,9 +31,15 @@ def accuracy_speed(store: Store) -> None:
     for question, part in points.groupby("question", sort=False):
         figure = draw(part, question)
         for suffix in ("svg", "png"):
-            path = store.path("figures", f"accuracy-speed-{question}.{suffix}")
-            figure.savefig(path, dpi=160, bbox_inches="tight", metadata={"Date": None} if suffix == "svg" else None)
+            store.write_bytes(drawn(figure, suffix), "figures", f"accuracy-speed-{question}.{suffix}")
         plt.close(figure)
+
+
+def drawn(figure: plt.Figure, suffix: str) -> bytes:
+    """The file of a figure, "svg" or "png", for a store to write as it writes all else."""
+    content = io.BytesIO()
+    figure.savefig(content, format=suffix, dpi=160, bbox_inches="tight", metadata={"Date": None} if suffix == "svg" else None)
+    return content.getvalue()
 
 
 def joined(store: Store) -> pd.DataFrame:

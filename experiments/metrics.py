@@ -9,7 +9,7 @@ from scipy.stats import binomtest
 from baselines import registry
 
 from .rows import filled
-from .store import Store
+from .store import Store, StoreError
 from .timing import FLOOR, LOST, PROBE
 
 OUTCOMES = ("right", "miss", "false alarm", "conservative", "touching", "no label", "unsupported",
@@ -25,7 +25,12 @@ def outcomes(store: Store) -> pd.DataFrame:
     is not ok. tunnelled: a miss of a sweep whose start and end are certified clear. error: signed time of impact error, as a share
     of the step: beyond the certified bracket, positive late, negative early, 0 inside; NaN where there is none.
     """
-    return judge(store.read("observations.parquet"), store.read("cases.parquet"))
+    said, cases = store.read("observations.parquet"), store.read("cases.parquet")
+    unknown = said.case[~said.case.isin(cases.case)]
+    if len(unknown):
+        raise StoreError(f"{store.folder / 'observations.parquet'} has answers to the case '{unknown.iloc[0]}', which is not in cases.parquet. "
+                         "The run was changed or is damaged; take it anew from where it was made, or make it again.")
+    return judge(said, cases)
 
 
 def judge(observations: pd.DataFrame, cases: pd.DataFrame) -> pd.DataFrame:

@@ -7,6 +7,7 @@ import time
 from typing import Callable, Iterator
 
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, TextColumn, TimeElapsedColumn
 from rich.text import Text
 
@@ -125,7 +126,7 @@ def stage(title: str, total: float, done: float = 0.0, seconds: float | None = N
             whole.advance(n / total)
             if not console.is_terminal and whole.clock() - last >= LINE:
                 last = whole.clock()
-                console.print(f"{title}: {100 * whole.done[title]:.0f} %; run: {spoken(whole.left())} left", highlight=False)
+                console.print(f"{escape(title)}: {100 * whole.done[title]:.0f} %; run: {spoken(whole.left())} left", highlight=False)
 
         yield advance
     whole.end()

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import json
-from typing import Iterable
+from contextlib import contextmanager
+from typing import Iterable, Iterator
 
 import numpy as np
 import pandas as pd
 
-from ofg import Body, Motion, Pose, Query
+from ofg import Body, BodyError, Motion, Pose, Query, readback
 
+from . import given
 from .case import Case
 from .truth.label import Truth
+
+
+class RowError(ValueError):
+    """A row that is no body or no case; the message names the file and the row."""
 
 
 MOTION = ("displacement", "axis", "angle", "about", "displacement_b", "axis_b", "angle_b", "about_b")
@@ -46,7 +52,7 @@ def filled(cases: pd.DataFrame) -> pd.DataFrame:
     """The rows with every column. Runs recorded before a column was: B rests there, A turns about its origin, every
     pose and motion is of float32 numbers, and no case is known to touch."""
     rest = {f"{name}{side}": value for side in ("", "_b") for name, value in _motion_row(Motion(), "").items()}
-    rest.update(precision="float32", touching=False)
+    rest.update(precision="float32", touching=False, index=0, attempt=0, reason="")
     missing = {name: [np.array(value) if isinstance(value, list) else value] * len(cases) for name, value in rest.items() if name not in cases}
     return cases.assign(**missing)
 
@@ -61,14 +67,12 @@ def body_row(body: Body) -> dict:
 
 
 def body_of(row) -> Body:
-    """The body of a row, vertex for vertex and face for face as it was."""
-    v, f = np.reshape(row.vertices, (-1, 3)), np.reshape(row.faces, (-1, 3))
-    if row.kind != "union":
-        return Body._of(row.kind, v, f, (), row.name)
-    v0 = np.cumsum([0, *row.piece_vertices])
-    f0 = np.cumsum([0, *row.piece_faces])
-    pieces = tuple(Body._of("convex", v[v0[i]:v0[i + 1]], f[f0[i]:f0[i + 1]] - v0[i], (), f"{row.name}[{i}]") for i in range(len(row.piece_vertices)))
-    return Body._of("union", v, f, pieces, row.name)
+    """The body of a row, vertex for vertex and face for face as it was. BodyError where it is none,
+    or where the content is not that of the digest it stands under."""
+    body = readback.body(row.kind, row.vertices, row.faces, row.piece_vertices, row.piece_faces, row.name)
+    if body.digest != row.body:
+        raise BodyError(f"Body '{row.name}': its content has the digest {body.digest}, and not {row.body}, under which it stands.")
+    return body
 
 
 def _certificate(text: str):
@@ -79,15 +83,48 @@ def _certificate(text: str):
         return text
 
 
+def tags_of(text: str) -> dict:
+    try:
+        tags = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"its tags are no JSON ({given.reason(error)})") from error
+    if not isinstance(tags, dict) or not all(isinstance(v, (str, int, float)) for v in tags.values()):
+        raise ValueError("its tags are no words and numbers by name")
+    return tags
+
+
 def cases_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> Iterable[tuple[Case, Truth]]:
-    """Cases and truths in the order of the rows; equal bodies are one object."""
-    made = {row.body: body_of(row) for row in bodies.itertuples()}
+    """Cases and truths in the order of the rows; equal bodies are one object.
+
+    RowError, which names the file and the row, for a body or a case that is none.
+    """
+    made = {}
+    for row in bodies.itertuples():
+        with _named("bodies.parquet", row.Index, row.body):
+            made[row.body] = body_of(row)
     for row in filled(cases).itertuples():
-        query = Query(row.question, made[row.body_a], made[row.body_b], Pose(row.quaternion_a, row.position_a),
-                      Pose(row.quaternion_b, row.position_b), Motion(row.displacement, row.axis, row.angle, row.about),
-                      Motion(row.displacement_b, row.axis_b, row.angle_b, row.about_b))
-        truth = Truth(row.label, row.t_lo, row.t_hi, row.start, row.end, row.gap, row.reason,
-                      _certificate(row.certificate), bool(row.touching))
-        tags = json.loads(row.tags)
-        case = Case(row.case, row.scenario, row.level, row.index, query, tags, row.precision)
-        yield case, truth
+        with _named("cases.parquet", row.Index, row.case):
+            for digest in (row.body_a, row.body_b):
+                if digest not in made:
+                    raise ValueError(f"bodies.parquet has no body {digest}")
+            found = _case(row, made)
+        yield found
+
+
+def _case(row, made) -> tuple[Case, Truth]:
+    query = Query(row.question, made[row.body_a], made[row.body_b], Pose(row.quaternion_a, row.position_a),
+                  Pose(row.quaternion_b, row.position_b), Motion(row.displacement, row.axis, row.angle, row.about),
+                  Motion(row.displacement_b, row.axis_b, row.angle_b, row.about_b))
+    truth = Truth(row.label, row.t_lo, row.t_hi, row.start, row.end, row.gap, row.reason,
+                  _certificate(row.certificate), bool(row.touching))
+    return Case(row.case, row.scenario, row.level, row.index, query, tags_of(row.tags), row.precision), truth
+
+
+@contextmanager
+def _named(file: str, index, name: str) -> Iterator[None]:
+    """Errors of a row as RowError."""
+    try:
+        yield
+    except (ValueError, TypeError) as error:
+        raise RowError(f"Row {index} of {file} ({given.shown(name)}) cannot be used: {given.clipped(str(error))} "
+                       "The file was changed or is damaged; take the run anew from where it was made, or make it again.") from error

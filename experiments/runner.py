@@ -13,7 +13,7 @@ import pandas as pd
 
 from baselines import registry
 
-from . import answering, curves, entries, figures, labelling, manifest, progress, scenarios, tables, timing
+from . import answering, curves, declared, entries, figures, labelling, manifest, progress, scenarios, tables, timing
 from .config import ConfigError, RunConfig
 from .report import report as html_report
 from .stepping import experiment as stepping
@@ -34,7 +34,8 @@ def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missin
     store = Store(folder)
     store.begin(config)
     if not store.has("manifest.json"):
-        note(store, started=manifest.now(), commit=manifest.commit(), versions=manifest.versions(config), build=manifest.build(), before=manifest.machine())
+        note(store, started=manifest.now(), commit=manifest.commit(), versions=manifest.versions(config), build=manifest.build(), before=manifest.machine(),
+             **declared.of(config))
     workers = workers or os.cpu_count() or 1
     if "finished" in facts(store):
         return report(store)
@@ -117,7 +118,7 @@ def missing(specs: tuple[str, ...]) -> list[str]:
 
 def facts(store: Store) -> dict:
     """What manifest.json holds."""
-    return json.loads((store.folder / "manifest.json").read_text()) if store.has("manifest.json") else {}
+    return store.facts
 
 
 def note(store: Store, **more) -> None:

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pandas as pd
 
-from .config import RunConfig
+from . import given, record
+from .config import RunConfig, parsed
+from .inside import inside
 
 
 class StoreError(RuntimeError):
@@ -23,7 +25,8 @@ class Store:
         self.folder = Path(folder)
 
     def path(self, *names: str) -> Path:
-        path = self.folder.joinpath(*names)
+        """Where to write. Outside where that is not in the folder: see `inside`."""
+        path = inside(self.folder, *names)
         path.parent.mkdir(parents=True, exist_ok=True)
         return path
 
@@ -41,7 +44,13 @@ class Store:
     def config(self) -> RunConfig:
         if not (self.folder / "config.json").is_file():
             raise StoreError(f"{self.folder} is no run folder: it has no config.json. Make one with: ofg-bench run quick --out {self.folder}")
-        return RunConfig.model_validate_json(_of_now((self.folder / "config.json").read_text()))
+        return parsed(_of_now(given.text(self.folder / "config.json", "The file")), self.folder / "config.json")
+
+    @property
+    def facts(self) -> dict:
+        """What manifest.json holds; nothing where there is none. StoreError where it is none."""
+        path = self.folder / "manifest.json"
+        return record.facts(path) if path.exists() else {}
 
     def has(self, *names: str) -> bool:
         return self.folder.joinpath(*names).exists()
@@ -52,11 +61,15 @@ class Store:
     def write_text(self, text: str, *names: str) -> None:
         _replace(self.path(*names), lambda temporary: temporary.write_text(text))
 
-    def read(self, *names: str) -> pd.DataFrame:
+    def write_bytes(self, content: bytes, *names: str) -> None:
+        _replace(self.path(*names), lambda temporary: temporary.write_bytes(content))
+
+    def read(self, *names: str, checked: bool = True) -> pd.DataFrame:
+        """The rows of a file. checked: with columns, types and ranges as record.COLUMNS says; RecordError if not."""
         path = self.folder.joinpath(*names)
         if not path.is_file():
             raise StoreError(f"{path} is missing: the run in {self.folder} is not finished. Finish it with: ofg-bench resume {self.folder}")
-        frame = pd.read_parquet(path)
+        frame = record.read(path, names[0] if checked and len(names) == 1 else "")
         if "method" in frame:
             frame["method"] = frame["method"].map(_of_now)
         return frame
@@ -77,6 +90,7 @@ def _replace(path: Path, write) -> None:
     """Write beside the target and rename, so that a file is there whole or not at all."""
     temporary = path.with_name(f".{path.name}.{os.getpid()}")
     try:
+        temporary.unlink(missing_ok=True)  # a link there would be written through
         write(temporary)
         os.replace(temporary, path)
     except OSError as error:

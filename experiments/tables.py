@@ -14,6 +14,8 @@ from ofg import QUESTIONS
 
 from . import metrics, scenarios
 from .config import ConfigError, RunConfig, TableChoice, closest
+from .inside import inside
+from .methods import method_table
 from .rows import filled
 from .store import Store
 from .table import MARK, Table, latex, marked, markdown, texts
@@ -53,8 +55,10 @@ def general(store: Store, found: pd.DataFrame) -> Iterator[Table]:
 
 
 def save(store: Store, tables: list[Table]) -> None:
-    """Write each table as CSV, Markdown and LaTeX; files of tables that are not made any more go."""
-    for path in store.folder.glob("tables/*"):
+    """Write each table as CSV, Markdown and LaTeX; files of tables that are not made any more go. Outside: see `inside`."""
+    for table in tables:
+        inside(store.folder, "tables", f"{table.name}.csv")
+    for path in inside(store.folder, "tables").glob("*"):
         if path.suffix in (".csv", ".md", ".tex") and path.stem not in {table.name for table in tables}:
             path.unlink()
     for table in tables:
@@ -178,7 +182,12 @@ def stepping_tables(store: Store) -> Iterator[Table]:
 
 
 def _reference(config: RunConfig) -> str:
-    return config.timing.reference or registry.make(config.asked[0])[0].label
+    if config.timing.reference:
+        return config.timing.reference
+    try:
+        return registry.make(config.asked[0])[0].label
+    except (ValueError, ImportError):  # a method whose file is not loaded
+        return config.asked[0]
 
 
 def truth_table(store: Store) -> Table:
@@ -201,20 +210,6 @@ def truth_table(store: Store) -> Table:
                "began in overlap. Precision: float32 where all numbers of a case are rounded to it.")
     return Table("truth", "Cases and their certified labels.", caption, frame, text, True,
                  ("exposes", "precision", "drawn again"))
-
-
-def method_table(store: Store, found: pd.DataFrame) -> Table:
-    """What each method of the run is, as it declares itself, with the version that ran."""
-    versions, known, rows = json.loads(store.path("manifest.json").read_text())["versions"], registry.methods(), []
-    for name in dict.fromkeys(label.split()[0] for label in found.method):
-        m = known[name]
-        rows.append({"method": name, "configuration": m.configuration, "engine": f"{m.engine} {versions.get(m.engine) or 'absent'}",
-                     "answers": " ".join(q for q in QUESTIONS if q in m.questions), "bodies": " ".join(sorted(m.bodies)),
-                     "tests": "solid" if m.solid else "surface", "margin": m.margin, "guarantee": m.guarantee})
-    frame = pd.DataFrame(rows)
-    text = frame.assign(answers=[" ".join(q[0] for q in a.split()) for a in frame.answers], bodies=[" ".join(k[0] for k in b.split()) for b in frame.bodies])
-    return Table("methods", "Methods.", "As they declare themselves. Answers: overlap, translation, motion; bodies: convex, mesh, union. A method is left out of the tables of "
-                 "questions that it does not answer.", frame, text.astype(str), optional=("guarantee", "engine"))
 
 
 def leaderboard(found: pd.DataFrame) -> Table:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 
 import numpy as np
 
-from .. import metrics
+from .. import metrics, record
 from ..store import Store, StoreError
 from .claims import CLAIMS, finding
 from .engines import sections
@@ -18,7 +17,7 @@ def about(runs: Runs) -> list[dict]:
     made = []
     for run in sorted(p.name for p in runs.folder.iterdir() if p.is_dir() and p.name != "runs"):
         folder = runs.folder / run
-        noted = next((json.loads((folder / n).read_text()) for n in ("manifest.json", "made.json") if (folder / n).exists()), {})
+        noted = next((record.facts(folder / n) for n in ("manifest.json", "made.json") if (folder / n).exists()), {})
         try:
             question = Store(folder).config.about or Store(folder).config.title
         except StoreError:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from typing import Any, Mapping
 
+RATIONAL = re.compile(r"-?[0-9]{1,4000}(/[0-9]{1,4000})?")
 MOST_PLANES = 4000  # of one case; a proof about two large meshes has more than anyone can look at
 
 
@@ -15,8 +17,15 @@ def drawable(certificate: Mapping[str, Any], most: int = MOST_PLANES) -> dict:
     "order_b"}: over [s, e] the normal n, fixed in the world (frame "W") or turning with A ("A"), points from the elements
     order_a[a_from:a_to] of A to order_b[b_from:b_to] of B and separates them. An order is left out where it is 0, 1, 2, ...;
     the leaves where there are more than `most`.
-    "hit", "end_hit": {"point": [x, y, z]} in the world.
+    "hit", "end_hit": {"point": [x, y, z]} in the world. Of a certificate that cannot be read nothing.
     """
+    try:
+        return _drawable(certificate, most)
+    except (KeyError, TypeError, ValueError, ArithmeticError, AttributeError, IndexError):
+        return {}  # the checker says what is wrong with it
+
+
+def _drawable(certificate, most: int) -> dict:
     found = {}
     for key in ("clear", "end_clear"):
         if key in certificate:
@@ -50,4 +59,6 @@ def _planes(proof: Mapping[str, Any], start: float, most: int) -> dict:
 
 
 def _number(x) -> float:
+    if isinstance(x, str) and not RATIONAL.fullmatch(x):
+        raise ValueError(f"{x[:40]} is no rational")  # a Fraction of "1e999999999" would fill the memory
     return float(Fraction(x)) if isinstance(x, str) else float(x)

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import tempfile
 from dataclasses import dataclass
 from functools import partial
@@ -22,13 +23,13 @@ import numpy as np
 import pandas as pd
 
 from baselines import registry
-from ofg import Body, Motion, Pose, Query
+from ofg import Body, Motion, Pose, Query, readback
 
-from .. import answering, metrics, pool
+from .. import answering, declared, given, metrics, pool, record
 from ..answering import COLUMNS
 from ..case import Case
 from ..config import ConfigError, RunConfig, closest, load, load_files
-from ..rows import body_of, body_row, case_row, cases_of
+from ..rows import body_of, body_row, case_row, cases_of, _certificate, tags_of
 from ..store import Store, StoreError
 from ..truth.label import Truth
 
@@ -54,6 +55,7 @@ class Explained:
     truth: Truth
     row: dict
     said: pd.DataFrame
+    refused: str = ""  #: why the checker does not accept the label
 
 
 def from_run(store: Store, name: str) -> Explained:
@@ -68,18 +70,44 @@ def from_run(store: Store, name: str) -> Explained:
     bodies = store.read("bodies.parquet")
     ((case, truth),) = cases_of(row, bodies[bodies.body.isin([row.body_a.iloc[0], row.body_b.iloc[0]])])
     said = store.read("observations.parquet").query("case == @name").reset_index(drop=True)
-    return Explained(case, truth, row.iloc[0].to_dict(), said)
+    return Explained(case, truth, row.iloc[0].to_dict(), said, refusal(case.query, truth))
+
+
+def refusal(query: Query, truth: Truth) -> str:
+    """Why the checker does not accept a label; "" where it does."""
+    from ..truth import check
+
+    verdict = check(query, truth)
+    return "" if verdict.ok else given.shown(verdict.reason) or "its certificate does not show it"
+
+
+def _said(rows) -> pd.DataFrame:
+    """Rows of observations.parquet; ValueError where they are none."""
+    if not isinstance(rows, list) or not all(isinstance(r, dict) for r in rows):
+        raise ValueError("observations is no list of rows")
+    said = pd.DataFrame(rows, columns=COLUMNS)
+    if (wrong := record.wrong(said, "observations.parquet")) is not None:
+        raise ValueError(f"observations: {wrong}")
+    return said
+
+
+def _check_names(case: Case, said: pd.DataFrame) -> None:
+    for name in (case.id, case.scenario, *said.method):
+        if not record.is_name(name):
+            raise ValueError(f"{given.shown(repr(name))[:80]} is no name")
+    if (said.case != case.id).any():
+        raise ValueError("observations are of another case")
 
 
 def from_file(path: Path) -> Explained:
     """ConfigError where the file cannot be read, naming the field."""
-    if not path.is_file():
+    if not path.exists():
         raise ConfigError(
             f"The case file {path} does not exist. Write one from a run with: ofg-bench explain CASE --run RUN --save {path}"
         )
     try:
-        content = json.loads(path.read_text())
-        made = {b["body"]: _body(b) for b in content["bodies"]}
+        content = given.json_in(path, "The case file", given.MOST_CASE)
+        made = {b["body"]: _body(b, i) for i, b in enumerate(content["bodies"])}
         row = content["case"]
         query = Query(
             row["question"],
@@ -100,19 +128,20 @@ def from_file(path: Path) -> Explained:
             row.get("precision", "float64"),
         )
         truth = _truth(row) if "label" in row else _certify(query)
-        said = pd.DataFrame(content.get("observations", []), columns=COLUMNS)
-    except json.JSONDecodeError as error:
-        raise ConfigError(f"The case file {path} is not valid JSON: {error}.") from error
+        said = _typed(_said(content.get("observations", [])))
+        _check_names(case, said)
+    except given.GivenError as error:
+        raise ConfigError(str(error)) from error
     except KeyError as error:
         raise ConfigError(
             f'The case file {path} lacks the field {error}. It needs "case" and "bodies": see the head of experiments/report/explain.py, or write one '
             "from a run with: ofg-bench explain CASE --run RUN --save case.json"
         ) from error
-    except (TypeError, ValueError, AttributeError, IndexError) as error:
+    except (TypeError, ValueError, AttributeError, IndexError, OverflowError, RecursionError) as error:
         raise ConfigError(
-            f"The case file {path} has a field of the wrong form ({error}). Compare it with one written by: ofg-bench explain CASE --run RUN --save case.json"
+            f"The case file {path} has a field of the wrong form ({given.reason(error)}). Compare it with one written by: ofg-bench explain CASE --run RUN --save case.json"
         ) from error
-    return Explained(case, truth, case_row(case, truth, 0), _typed(said))
+    return Explained(case, truth, case_row(case, truth, 0), said, refusal(query, truth))
 
 
 def save(explained: Explained, path: Path) -> None:
@@ -147,25 +176,21 @@ def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
         explained.truth,
         explained.row,
         _typed(pd.concat([fresh, kept], ignore_index=True) if len(kept) else fresh),
+        explained.refused,
     )
 
 
-def command(name, run_, file, out, save_to, anew, methods, method_files, print_grid, say) -> None:
-    """What `ofg-bench explain` does; its options are those of the command line."""
+def command(name, store, file, out, save_to, anew, methods, method_files, trust, print_grid, say) -> None:
+    """What `ofg-bench explain` does; its options are those of the command line. store: the run, opened, or None."""
     from .. import manifest
 
-    if run_ is not None:
-        store = Store(run_)
-        config = store.config
-        load_files(config)
-        found, versions, known = (
-            from_run(store, name),
-            json.loads(store.path("manifest.json").read_text())["versions"],
-            config.asked,
-        )
+    if store is not None:
+        config = store.config if trust else store.config.model_copy(update={"method_files": (), "scenario_files": ()})
+        found, versions = from_run(store, name), store.facts.get("versions", {})
+        known = tuple(spec for spec in config.asked if trust or not _strange(spec))
     else:
         found, versions = from_file(file), {}
-        known = tuple(found.said.method)
+        known = tuple(label for label in found.said.method if not _strange(label))
         config = RunConfig(seed=0, methods=known or ("ofg",), scenarios=[{"name": found.case.scenario, "cases": 1}])
     config = config.model_copy(
         update={
@@ -174,6 +199,8 @@ def command(name, run_, file, out, save_to, anew, methods, method_files, print_g
             "method_files": config.method_files + method_files,
         }
     )
+    if strange := [spec for spec in methods if declared.recorded(spec.split()[0])]:
+        raise ConfigError(f"The method '{strange[0]}' is of a file that the run names, which is not run; pass --trust to run it, or its file with --methods.")
     if anew or not len(found.said):
         with tempfile.TemporaryDirectory() as folder:
             found = ask(found, config, Path(folder, "workers.log"))
@@ -188,8 +215,9 @@ def command(name, run_, file, out, save_to, anew, methods, method_files, print_g
         (r.method, r.outcome, *((_digits(r.time), _digits(r.error)) if sweep else ()), r.detail or "")
         for r in verdicts(found).itertuples()
     ]
+    certified = f"stated, not certified ({found.refused}): {t.label}" if found.refused else f"certified {t.label}"
     print_grid(
-        f"{found.case.id}: certified {t.label}{', touching' if t.touching else ''}{bracket}, "
+        f"{found.case.id}: {certified if t.label != 'uncertain' or found.refused else 'uncertain'}{', touching' if t.touching else ''}{bracket}, "
         f"gap {t.gap:.3g}{'. ' + t.reason if t.reason else ''}",
         columns,
         rows,
@@ -200,8 +228,14 @@ def command(name, run_, file, out, save_to, anew, methods, method_files, print_g
         say(f"A {motion_words(q.motion)}; B {motion_words(q.motion_b)}.")
     if save_to:
         save(found, save_to)
-        say(f"The case is in {save_to}; show it anywhere with: ofg-bench explain --file {save_to}")
-    say(f"The page is {page_path}.")
+        say(given.markup(f"The case is in {save_to}; show it anywhere with: ofg-bench explain --file {save_to}"))
+    say(given.markup(f"The page is {page_path}."))
+
+
+def _strange(spec: str) -> bool:
+    """Is it no method that is loaded here?"""
+    name = spec.split()[0]
+    return name not in registry.methods() or declared.recorded(name)
 
 
 def motion_words(motion: Motion) -> str:
@@ -231,8 +265,8 @@ def page(explained: Explained, versions: dict) -> str:
     from . import page as pages
     from . import payload
 
-    made = payload.of_case(explained.case, explained.truth, explained.row, explained.said, versions)
-    return pages.page(made, f"{explained.case.id}: one case, certified")
+    made = payload.of_case(explained.case, explained.truth, explained.row, explained.said, versions, explained.refused)
+    return pages.page(made, f"{explained.case.id}: one case, {'not ' * bool(explained.refused)}certified")
 
 
 def verdicts(explained: Explained) -> pd.DataFrame:
@@ -250,11 +284,17 @@ def verdicts(explained: Explained) -> pd.DataFrame:
     )
 
 
-def _body(row: dict) -> Body:
-    row = {"name": row["body"], "faces": [], **row}
-    if row["kind"] == "convex" and not row["faces"]:
-        return Body.convex(np.reshape(row["vertices"], (-1, 3)), row["name"])
-    return body_of(SimpleNamespace(**row))
+def _body(row: dict, index: int) -> Body:
+    """ValueError, which names the body, where it is none. A name that is no digest says nothing of the content."""
+    row = {"name": row["body"], "faces": [], "piece_vertices": [], "piece_faces": [], **row}
+    try:
+        if row["kind"] == "convex" and not row["faces"]:
+            return Body.convex(np.reshape(row["vertices"], (-1, 3)), row["name"])
+        if re.fullmatch("[0-9a-f]{24}", row["body"]):
+            return body_of(SimpleNamespace(**row))
+        return readback.body(*(row[name] for name in ("kind", "vertices", "faces", "piece_vertices", "piece_faces", "name")))
+    except (ValueError, TypeError) as error:
+        raise ValueError(f"bodies[{index}]: {error}") from error
 
 
 def _pose(row: dict, side: str) -> Pose:
@@ -269,12 +309,18 @@ def _motion(row: dict, side: str) -> Motion:
 
 def _tags(row: dict) -> dict:
     tags = row.get("tags", {})
-    return json.loads(tags) if isinstance(tags, str) else tags
+    return tags_of(tags if isinstance(tags, str) else json.dumps(tags))
 
 
 def _truth(row: dict) -> Truth:
     t_lo, t_hi, gap = (math.nan if row.get(key) is None else float(row[key]) for key in ("t_lo", "t_hi", "gap"))
     certificate = row.get("certificate", "{}")
+    certificate = _certificate(certificate) if isinstance(certificate, str) else certificate
+    if not isinstance(certificate, dict):
+        raise ValueError("certificate is no JSON object")
+    for name in ("label", "start", "end"):
+        if row.get(name, "uncertain") not in record.LABELS:
+            raise ValueError(f"{name} is {given.shown(repr(row[name]))}, and not one of {', '.join(record.LABELS)}")
     return Truth(
         row["label"],
         t_lo,
@@ -282,8 +328,8 @@ def _truth(row: dict) -> Truth:
         row.get("start", "uncertain"),
         row.get("end", "uncertain"),
         gap,
-        row.get("reason", ""),
-        json.loads(certificate) if isinstance(certificate, str) else certificate,
+        str(row.get("reason", "")),
+        certificate,
         bool(row.get("touching", False)),
     )
 

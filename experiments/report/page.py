@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import re
 from pathlib import Path
 
 from .payload import encode, pack
@@ -24,6 +25,7 @@ SCRIPTS = (
     "run.js",
     "main.js",
 )
+MARK = re.compile("@@(TITLE|STYLE|STORES|SCRIPT)@@")
 LIBRARIES = ("plotly-basic.min.js", "three.min.js")
 
 
@@ -37,11 +39,10 @@ def page(payload: dict, title: str) -> str:
     stores = "\n".join(f'<script type="application/octet-stream" id="{name}">{text}</script>' for name, text in blocks.items())
     script = "\n".join((HERE / "page" / name).read_text() for name in SCRIPTS)
     made = (HERE / "page" / "page.html").read_text()
-    for mark, text in (
-        ("TITLE", html.escape(title)),
-        ("STYLE", (HERE / "page" / "style.css").read_text()),
-        ("STORES", stores),
-        ("SCRIPT", script),
-    ):
-        made = made.replace(f"@@{mark}@@", text)
-    return made
+    parts = {
+        "TITLE": html.escape(title),
+        "STYLE": (HERE / "page" / "style.css").read_text(),
+        "STORES": stores,
+        "SCRIPT": script,
+    }
+    return MARK.sub(lambda mark: parts[mark[1]], made)  # in one pass: a mark in a title is words

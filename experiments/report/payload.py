@@ -18,11 +18,12 @@ from ofg import Body
 from ofg.decomposition import kept_at
 
 from .. import metrics, scenarios, tables
+from ..methods import UNKNOWN
 from ..progress import stage
 from ..rows import MOTION, cases_of, filled
 from ..store import Store
-from ..timing import FLOOR, LOST, PROBE, SIZES, situation_of, size_of
-from . import selection
+from ..timing import SIZES, situation_of, size_of
+from . import lanes, selection
 from .certificate import drawable
 
 CODES = {
@@ -40,11 +41,6 @@ SHOWN = 24  # cases of each kind that the gallery can draw for each method
 BYTES = 8_000_000  # of bodies, before compression: what a page may weigh
 CASES = 3_000  # that a page can draw: what its making may take
 EXACT = 5_000  # vertices up to which a body is never rounded
-NATIVE = {
-    "apart": ("overlap", "apart"),
-    "overlapping": ("overlap", "deep"),
-    "flight": ("translation", "hit"),
-}  # of experiments/native.py: ours
 SELECTED = 2_000  # faces up to which a selection is drawn; of k = inf on a large mesh the page only says how many
 OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
@@ -63,18 +59,21 @@ def of_run(store: Store, made_tables=None) -> dict:
         **_observations(found, rows),
     }
     made["methods"] = [_method(label, made["run"]["versions"]) for label in made["labels"]]
-    made["lanes"] = {**(_lanes(store, rows) if store.has("timings.parquet") else {}), **_native(store, set(made["labels"]))}
+    made["lanes"] = {**(lanes.python(store, rows) if store.has("timings.parquet") else {}), **lanes.native(store, set(made["labels"]))}
     made["tables"] = [_table(t, found) for t in made_tables or tables.build(store)]
     return {**made, **_shapes(store, rows, found)}
 
 
-def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict) -> dict:
-    """The same for one case: `row` is its row of cases.parquet, `observations` what methods said about it."""
+def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict, refused: str = "") -> dict:
+    """The same for one case: `row` is its row of cases.parquet, `observations` what methods said about it.
+
+    refused: why the checker does not accept its label, if it does not.
+    """
     rows = filled(pd.DataFrame([row]))
     found = metrics.judge(observations, rows)
     made = {
         "mode": "case",
-        "run": {"versions": versions},
+        "run": {"versions": versions, **({"refused": refused} if refused else {})},
         "codes": {code: name for name, code in CODES.items()},
         "cases": _cases(rows),
         "sizes": [name for _, name in SIZES],
@@ -100,7 +99,7 @@ def pack(content: bytes) -> str:
 
 
 def _run(store: Store) -> dict:
-    manifest = json.loads(store.path("manifest.json").read_text())
+    facts = store.facts
     noise = metrics.noise(store) if store.has("timings.parquet") else math.nan
     return {
         "name": store.folder.resolve().name,
@@ -108,7 +107,7 @@ def _run(store: Store) -> dict:
         "about": store.config.about,
         "noise": noise,
         "config": json.loads(store.config.model_dump_json()),
-        **manifest,
+        **facts,
     }
 
 
@@ -165,7 +164,7 @@ def _method(label: str, versions: dict) -> dict:
             "configuration": "",
             "solid": None,
             "margin": 0,
-            "guarantee": "its file is not here",
+            "guarantee": UNKNOWN,
             "answers": [],
             "bodies": [],
         }
@@ -213,40 +212,6 @@ def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
         made["detail"].append([at[said].tolist(), [known.setdefault(d, len(known)) for d in part.detail[said]]])
     made["details"] = list(known)
     return made
-
-
-def _lanes(store: Store, rows: pd.DataFrame) -> dict:
-    """lane -> method -> {cases, ns: medians over rounds; floors: [question, faces, situation, ns]}; "python" where no lane is
-    named."""
-    place = {case: i for i, case in enumerate(rows.case)}
-    times = store.read("timings.parquet")
-    times = times[~times.method.isin([PROBE, LOST])]
-    times = times.assign(ns=[float(np.median(r)) for r in times.rounds_ns], lane=times.lane if "lane" in times else "python")
-    lanes: dict[str, dict] = {}
-    for (lane, label), part in times.groupby(["lane", "method"], sort=False):
-        floor, real = part[part.case == FLOOR], part[part.case != FLOOR]
-        lanes.setdefault(lane, {})[label] = {
-            "cases": [place[c] for c in real.case],
-            "ns": real.ns.tolist(),
-            "build": real.build_ns.tolist(),
-            "floors": floor[["question", "faces", "situation", "ns"]].values.tolist(),
-        }
-    return lanes
-
-
-def _native(store: Store, labels: set[str]) -> dict:
-    """The native lane of a run that has a native.csv (python -m experiments.native --out RUN).
-
-    It times pairs of its own of given sizes, so no case of the run stands behind it.
-    """
-    if not store.has("native.csv"):
-        return {}
-    lane: dict[str, dict] = {}
-    times = pd.read_csv(store.path("native.csv"))
-    times = times.assign(sizes=size_of(times.faces))
-    for row in times[times.method.isin(labels) & times.native.notna() & times.situation.isin(NATIVE)].itertuples():
-        lane.setdefault(row.method, {"cases": [], "bins": []})["bins"].append([*NATIVE[row.situation], row.sizes, row.native])
-    return {"native": lane} if lane else {}
 
 
 def _table(table, found: pd.DataFrame) -> dict:

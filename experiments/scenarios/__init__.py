@@ -47,6 +47,11 @@ def _entered(entry) -> list[Scenario]:
     return found
 
 
+def own_modules() -> set[str]:
+    """Names of the families that come with this project."""
+    return {m.name for m in pkgutil.iter_modules(__path__)}
+
+
 def get(name: str) -> Scenario:
     """The family of that name. ValueError with the closest names where there is none."""
     known = scenarios()
@@ -69,7 +74,7 @@ def load_file(path) -> list[Scenario]:
     if not found or not all(isinstance(s, Scenario) for s in found):
         raise ValueError(f"Scenario file {path} defines no scenario; it must set SCENARIO = Scenario(...), or SCENARIOS to a list "
                          "of them (from experiments.scenario import Scenario, Draft).")
-    taken = [s.name for s in found if s.name in {m.name for m in pkgutil.iter_modules(__path__)}]
+    taken = [s.name for s in found if s.name in own_modules()]
     if taken:
         raise ValueError(f"Scenario file {path}: the name '{taken[0]}' is taken by a family of this project; choose another.")
     scenarios().update({s.name: s for s in found})

@@ -35,7 +35,7 @@ def main(
     console = Console()
     absent = {c.name: reason for c in contestants if (reason := track.absent(c))}
     for name, reason in absent.items():
-        console.print(f"left out: {name}: {reason}")
+        console.print(f"left out: {name}: {reason}", markup=False)
     contestants = [c for c in contestants if c.name not in absent]
     cells = track.measure(contestants, scenes, TRAVELS, runs, seed)
     rows = pd.DataFrame(list(progress(cells, "step", total=len(scenes) * len(contestants) * len(TRAVELS), console=Console(stderr=True))))

@@ -9,7 +9,7 @@ import pandas as pd
 from baselines import registry
 
 from .. import config as configuration
-from .. import scenarios, timing
+from .. import given, scenarios, timing
 from ..labelling import Slot
 from ..rows import filled
 from ..store import Store
@@ -45,9 +45,9 @@ def read(store: Store, found: Findings) -> dict[str, pd.DataFrame] | None:
     for name, columns in wanted.items():
         file = f"{name}.parquet"
         try:
-            frames[name] = store.read(file)
+            frames[name] = store.read(file, checked=False)  # each wrong row is to be named, not the first alone
         except (OSError, ValueError, TypeError) as error:
-            found.refuse(file, f"it cannot be read ({type(error).__name__})")
+            found.refuse(file, f"it cannot be read ({given.reason(error)})")
             continue
         frames[name] = filled(frames[name]) if name == "cases" else frames[name]
         if missing := [c for c in columns if c not in frames[name]]:

@@ -1,6 +1,5 @@
 // Python's way into the core: arrays in, arrays out, the interpreter lock released while asking.
 #include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "given.hpp"
 #include "ofg/article.hpp"
 #include "ofg/batch.hpp"
 #include "ofg/brute_force.hpp"
@@ -17,55 +17,30 @@
 namespace nb = nanobind;
 using namespace nb::literals;
 
+using namespace given;
+
 namespace {
 
-using Doubles = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
-using Ints = nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
-
-// Rows of arrays: quaternion and position; displacement, axis, angle and the point turned about.
-constexpr std::size_t pose_columns = 7, motion_columns = 10;
-
-// What enters native code is checked here too: a wrong index or width would read what is not there.
-void check_width(const Doubles& rows, std::size_t columns, const char* what) {
-  if (rows.shape(1) != columns)
-    throw nb::value_error(
-        (std::string(what) + " must have " + std::to_string(columns) + " columns").c_str());
-}
-void check_finite(const Doubles& rows, const char* what) {
-  double sum = 0;  // x - x is 0, or no number
-  for (std::size_t i = 0; i < rows.size(); ++i) sum += rows.data()[i] - rows.data()[i];
-  if (sum != 0)
-    throw nb::value_error((std::string(what) + " holds a number that is not finite").c_str());
-}
-void check_rows(const Doubles& rows, std::size_t n, std::size_t columns, const char* what) {
-  check_width(rows, columns, what);
-  if (rows.shape(0) != n)
-    throw nb::value_error(
-        (std::string(what) + " must have " + std::to_string(n) + " rows").c_str());
-  check_finite(rows, what);
-}
-void check_mesh(const Doubles& v, const Ints& f) {
-  check_width(v, 3, "vertices");
-  check_finite(v, "vertices");
-  if (f.shape(1) != 3) throw nb::value_error("faces must have 3 columns");
-  if (v.shape(0) == 0 || f.shape(0) == 0) throw nb::value_error("a body needs a vertex and a face");
-  for (std::size_t i = 0; i < f.size(); ++i)
-    if (f.data()[i] < 0 || std::size_t(f.data()[i]) >= v.shape(0))
-      throw nb::value_error("faces name a vertex that is not there");
-}
-
-// A body in both precisions.
+// A body in both precisions; in float only where its size is in float's range.
 struct Solid {
   ofg::Body<double> fine;
   ofg::Body<float> coarse;
+  bool has_coarse;
 
   Solid(Doubles v, Ints f, bool convex, const std::vector<Doubles>& pv, const std::vector<Ints>& pf) {
     check_mesh(v, f);
-    if (pv.size() != pf.size())
-      throw nb::value_error("piece_vertices and piece_faces must be of one length");
+    require(pv.size() == pf.size(), "piece_vertices and piece_faces must be of one length");
     for (std::size_t i = 0; i < pv.size(); ++i) check_mesh(pv[i], pf[i]);
+    double most = largest(v.data(), v.size());
+    has_coarse = smallest_float <= most;
+    for (const auto& piece : pv) most = std::fmax(most, largest(piece.data(), piece.size()));
+    has_coarse &= most <= longest_float;
     fill(fine, v, f, convex, pv, pf);
-    fill(coarse, v, f, convex, pv, pf);
+    if (has_coarse) fill(coarse, v, f, convex, pv, pf);
+  }
+
+  void check(bool single) const {
+    require(!single || has_coarse, "a body is too small or too large for single precision");
   }
 
   template <class T>
@@ -89,7 +64,7 @@ struct Solid {
 enum class Algorithm { ofg, brute_force, article };
 
 Algorithm algorithm_of(int how) {
-  if (how < 0 || how > 2) throw nb::value_error("algorithm must be 0 (OFG), 1 (brute force) or 2 (the article)");
+  require(how >= 0 && how <= 2, "algorithm must be 0 (OFG), 1 (brute force) or 2 (the article)");
   return Algorithm(how);
 }
 
@@ -97,9 +72,9 @@ void check_options(const ofg::Options& o) {
   const bool words = int(o.toi) >= 0 && int(o.toi) < 4 && int(o.order) >= 0 && int(o.order) < 2 && int(o.broad) >= 0 && int(o.broad) < 2 &&
                      int(o.concave) >= 0 && int(o.concave) < 3 && int(o.nearest) >= 0 &&
                      int(o.nearest) < 2;
-  if (!words || o.k < 1 || o.selection_times < 1 || o.selection_times > 3 || o.piece_times < 1 || o.piece_times > 3 || o.iterations < 1 ||
-      !(o.arc_tolerance >= 0))
-    throw nb::value_error("an option is out of range");
+  const bool numbers = o.k >= 1 && o.selection_times >= 1 && o.selection_times <= 3 && o.piece_times >= 1 &&
+                       o.piece_times <= 3 && o.iterations >= 1 && o.iterations <= 60;
+  require(words && numbers && o.arc_tolerance >= 0 && o.arc_tolerance < 1, "an option is out of range");
 }
 
 template <class T>
@@ -139,8 +114,8 @@ struct Prepared {
            bool single_)
       : keep_a(oa),
         keep_b(ob),
-        a(nb::cast<const Solid&>(oa)),
-        b(nb::cast<const Solid&>(ob)),
+        a(solid_of(oa)),
+        b(solid_of(ob)),
         pose_a(pose_of(checked(poses, motions).data())),
         pose_b(pose_of(poses.data() + pose_columns)),
         motion_a(motion_of(motions.data())),
@@ -150,15 +125,22 @@ struct Prepared {
         moving(moving_),
         single(single_) {
     check_options(o);
+    a.check(single), b.check(single);
+    if (single)
+      check_float(poses.data(), poses.data() + pose_columns, motions.data(), motions.data() + motion_columns, 1);
     if (single)
       workspace<float>().reserve(a.coarse, b.coarse);
     else
       workspace<double>().reserve(a.fine, b.fine);
   }
 
+  static const Solid& solid_of(nb::handle body) {
+    require(nb::isinstance<Solid>(body), "a body must be a Solid of this module");
+    return nb::cast<const Solid&>(body);
+  }
   static const Doubles& checked(const Doubles& poses, const Doubles& motions) {
-    check_rows(poses, 2, pose_columns, "poses");
-    check_rows(motions, 2, motion_columns, "motions");
+    check_poses(poses, 2, "poses");
+    check_motions(motions, 2, "motions");
     return poses;
   }
 
@@ -173,6 +155,7 @@ struct Prepared {
   }
 };
 
+constexpr int most_threads = 256;
 constexpr int columns = 8;
 void count(const ofg::Counts& c, std::int64_t* to) {
   const std::int64_t all[columns] = {c.spheres,    c.distances,  c.face_pairs, c.edge_faces,
@@ -209,15 +192,18 @@ nb::ndarray<nb::numpy, T> array(std::vector<std::size_t> shape, T*& data) {
 nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubles ma, Doubles mb, const ofg::Options& o, int how,
                    bool moving, bool single, int threads) {
   const std::size_t n = pa.shape(0);
-  check_rows(pa, n, pose_columns, "poses_a"), check_rows(pb, n, pose_columns, "poses_b");
-  check_rows(ma, n, motion_columns, "motions_a"), check_rows(mb, n, motion_columns, "motions_b");
+  check_poses(pa, n, "poses_a"), check_poses(pb, n, "poses_b");
+  check_motions(ma, n, "motions_a"), check_motions(mb, n, "motions_b");
   check_options(o);
+  a.check(single), b.check(single);
+  if (single) check_float(pa.data(), pb.data(), ma.data(), mb.data(), n);
+  require(threads >= 1 && threads <= most_threads, "threads must be 1 to " + std::to_string(most_threads));
   const Algorithm algorithm = algorithm_of(how);
   std::vector<ofg::Answer> answers(n);
   {
     nb::gil_scoped_release released;
     const auto range = single ? ask_range<float> : ask_range<double>;
-    const std::size_t parts = std::min<std::size_t>(std::max(threads, 1), std::max<std::size_t>(n, 1));
+    const std::size_t parts = std::min(std::size_t(threads), std::max<std::size_t>(n, 1));
     std::vector<std::thread> others;
     const auto part = [&](std::size_t i) {
       range(algorithm, moving, a, b, pa.data(), pb.data(), ma.data(), mb.data(), o, n * i / parts,
@@ -260,6 +246,7 @@ nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubl
 template <class T>
 nb::ndarray<nb::numpy, bool> triangles_meet(Doubles pairs) {
   check_width(pairs, 18, "pairs");
+  check_finite(pairs, "pairs");
   bool* meet;
   auto out = array<bool>({pairs.shape(0)}, meet);
   for (std::size_t i = 0; i < pairs.shape(0); ++i) {
@@ -289,7 +276,8 @@ nb::ndarray<nb::numpy, double> least_points(const Solid& solid, Doubles axes) {
 // Bounds on how far vertices of A seen from B, and those of B that meet A seen from A, stray over a
 // share of the step. For the tests.
 nb::tuple strays(const Solid& a, const Solid& b, Doubles poses, Doubles motions, double share) {
-  check_rows(poses, 2, pose_columns, "poses"), check_rows(motions, 2, motion_columns, "motions");
+  check_poses(poses, 2, "poses"), check_motions(motions, 2, "motions");
+  require(share >= 0 && share <= 1, "share must lie in [0, 1]");
   const double *p = poses.data(), *m = motions.data();
   const ofg::Track track(pose_of(p), pose_of(p + pose_columns), motion_of(m),
                          motion_of(m + motion_columns));
@@ -299,7 +287,12 @@ nb::tuple strays(const Solid& a, const Solid& b, Doubles poses, Doubles motions,
 
 NB_MODULE(_core, m) {
   m.def(
-      "set_isa", [](int isa) { return ofg::set_isa(ofg::Isa(isa)); }, "isa"_a,
+      "set_isa",
+      [](int isa) {
+        require(isa >= 0 && isa <= 2, "isa must be 0 (SSE2), 1 (AVX2) or 2 (AVX-512)");
+        return ofg::set_isa(ofg::Isa(isa));
+      },
+      "isa"_a,
       "0: SSE2, 1: AVX2, 2: AVX-512. False where the machine lacks it.");
   m.def("widest_isa", [] { return int(ofg::widest_isa()); });
   m.attr("build") = OFG_BUILD;

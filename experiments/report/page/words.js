@@ -22,7 +22,7 @@ function facts(i) {
   };
   const rows = [
     [
-      "Certified",
+      D.run.refused ? `Stated, not certified (${D.run.refused})` : "Certified",
       el("b", { class: `label ${c.label[i]}` }, c.label[i]),
       c.touching[i] ? ", touching: the surfaces share a point and no more" : "",
       c.reason[i] ? ` (${c.reason[i]})` : "",
@@ -69,6 +69,7 @@ function proofWords(i, g, { plane, point }, t) {
         ? ` Its ${D.proofs[i].clear.planes.toLocaleString("en")} planes are too many for this page.`
         : "";
   if (c.label[i] === "uncertain") return `No certificate: ${c.reason[i]}`;
+  if (D.run.refused) return `Stated, not certified: ${D.run.refused}.`;
   if (point) return "Certified: the marked point lies inside both bodies at this time.";
   if (plane)
     return `Certified: this plane (${{ A: "turning with A", B: "turning with B" }[plane.frame] || "fixed in space"}) separates them now${plane.count > 1 ? `; it is the tightest of ${plane.count} between groups of ${g.a.kind === "union" || g.b.kind === "union" ? "pieces" : "faces"}` : ""}. Clearance along it, in doubles: ${number(plane.gap)}.`;

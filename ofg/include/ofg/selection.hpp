@@ -87,8 +87,8 @@ struct Workspace {
   }
   void reserve(const Body<T>& ba, const Body<T>& bb) {
     reserve(ba.whole, bb.whole);
-    for (const auto& p : ba.pieces)
-      for (const auto& q : bb.pieces) reserve(p, q);
+    for (const auto* body : {&ba, &bb})  // also where the other body has no pieces
+      for (const auto& piece : body->pieces) reserve(piece, piece);
   }
   std::uint32_t next_epoch() {
     if (++epoch == 0) {
