@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -29,8 +31,9 @@ def save(store: Store, tables: list[Table]) -> None:
         names = table.choice.scenarios or [c.name for c in store.config.scenarios]
         figure = draw(table, AXES[table.choice.columns] or " / ".join(dict.fromkeys(scenarios.get(name).axis for name in names)))
         for suffix in ("svg", "png"):
-            path = store.path("figures", f"{table.name}.{suffix}")
-            figure.savefig(path, dpi=160, bbox_inches="tight", metadata={"Date": None} if suffix == "svg" else None)
+            metadata = {"Date": None} if suffix == "svg" else None
+            store.write_file(partial(figure.savefig, dpi=160, bbox_inches="tight", format=suffix, metadata=metadata),
+                             "figures", f"{table.name}.{suffix}")
         plt.close(figure)
 
 

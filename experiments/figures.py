@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -29,8 +31,9 @@ def accuracy_speed(store: Store) -> None:
     for question, part in points.groupby("question", sort=False):
         figure = draw(part, question)
         for suffix in ("svg", "png"):
-            path = store.path("figures", f"accuracy-speed-{question}.{suffix}")
-            figure.savefig(path, dpi=160, bbox_inches="tight", metadata={"Date": None} if suffix == "svg" else None)
+            metadata = {"Date": None} if suffix == "svg" else None
+            store.write_file(partial(figure.savefig, dpi=160, bbox_inches="tight", format=suffix, metadata=metadata),
+                             "figures", f"accuracy-speed-{question}.{suffix}")
         plt.close(figure)
 
 
