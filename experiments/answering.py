@@ -12,6 +12,7 @@ import pandas as pd
 from baselines import registry
 from baselines.contract import MissingEngine, Unsupported, Verdict
 
+from . import origin, ownfile
 from .case import Case
 from .config import RunConfig, load_files
 from .pool import Task, limit, mixed, run
@@ -26,27 +27,27 @@ PACES = ("parts", "pace.parquet")
 
 
 def ask(store: Store, config: RunConfig, workers: int, told: Callable[[str, list[dict]], None] = lambda label, rows: None) -> None:
-    """Write observations.parquet, a row per case and method; parts that are there already are not made again.
+    """Write observations.parquet, a row per case and method; shards that are there already are not made again.
 
     told(label, rows): called with the rows of each chunk of a method, with their PACE, when it is done.
     """
-    if store.has("observations.parquet"):
-        return
     cases = [case for case, _ in cases_of(store.read("cases.parquet"), store.read("bodies.parquet"))]
     methods = [m for spec in config.asked for m in registry.make(spec)]
     chunks = [cases[i:i + CHUNK] for i in range(0, len(cases), CHUNK)]
+    facts = {"cases": store.digest("cases.parquet"), "limits": [config.build_seconds, config.query_seconds],
+             "own": ownfile.digests(config.method_files)}
     tasks, names = [], []
-    for m, method in enumerate(methods):
-        for i, chunk in enumerate(chunks):
-            names.append(("parts", "observations", f"{m:03d}-{i:05d}.parquet"))
-            if not store.has(*names[-1]):
+    for method in methods:
+        for chunk in chunks:
+            names.append(store.shard("observations", **facts, **origin.facts(method.engine), method=method.label, chunk=[case.id for case in chunk]))
+            if not names[-1].ready():
                 tasks.append(_task(store, config, method, chunk, names[-1], told))
             else:
-                told(method.label, store.read(*names[-1]).to_dict("records"))
+                told(method.label, store.read(names[-1]).to_dict("records"))
     total = len(cases) * len(methods)
     with stage("ask methods", total, total - sum(len(t.items) for t in tasks)) as advance:
         run(mixed(tasks), workers, config.build_seconds + config.query_seconds, store.path("workers.log"), advance, partial(load_files, config))
-    rows = pd.concat([store.read(*name) for name in names], ignore_index=True)
+    rows = pd.concat([store.read(name) for name in names], ignore_index=True)
     store.write(rows[["case", "method", *PACE]], *PACES)
     store.write(rows[COLUMNS], "observations.parquet")
 
@@ -55,7 +56,7 @@ def _task(store: Store, config: RunConfig, method, chunk: list[Case], name, told
     def done(rows):
         told(method.label, rows)
         frame = pd.DataFrame(rows, columns=COLUMNS + PACE).astype({"hit": "boolean"})
-        store.write(frame, *name)
+        store.write(frame, name)
 
     def lost(case, status, detail):
         return _row(case, method.label, status, detail=detail)

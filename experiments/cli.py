@@ -17,7 +17,7 @@ from . import config as configuration
 from . import given, scenarios
 from .given import markup
 from .reading import opened, reading
-from .store import Store, StoreError
+from .store import MACHINE, MachineError, Store, StoreError
 
 app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", pretty_exceptions_enable=False, add_completion=False,
                   help="""Benchmark collision detection on cases whose true answers are certified.
@@ -385,13 +385,23 @@ def _extend(methods, scenario_files) -> None:
         scenarios.load_file(path)
 
 
+def _failed(text: str, code: int) -> int:
+    Console(stderr=True).print(f"[bold red]Error.[/] {markup(text)}", highlight=False, soft_wrap=False)
+    return code
+
+
 def main() -> None:
-    """Entry point: errors of the user are one paragraph and exit code 2, not a traceback."""
+    """Entry point: errors are one paragraph and no traceback; exit code 2 for the user's, 1 for the machine's."""
     try:
         app()
-    except (ValueError, StoreError, BodyError, ImportError, OSError) as error:
-        Console(stderr=True).print(f"[bold red]Error.[/] {markup(error)}", highlight=False, soft_wrap=False)
-        sys.exit(2)
+    except MachineError as error:
+        sys.exit(_failed(str(error), 1))
+    except (ValueError, StoreError, BodyError, ImportError) as error:
+        sys.exit(_failed(str(error), 2))
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        sys.exit(_failed(f"{where}{error.strerror or error}. Make it readable and writable, or free some space; what is finished "
+                         "is kept: say the same command again.", 1 if error.errno in MACHINE else 2))
     except KeyboardInterrupt:
         Console(stderr=True).print("\nInterrupted. What is finished is kept; say the same command again to go on.")
         sys.exit(130)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
 
 import pandas as pd
 
-from . import scenarios
+from . import origin, ownfile, scenarios
 from .case import Case
 from .config import RunConfig, load_files
 from .pool import Task, mixed, run
@@ -41,27 +41,26 @@ def slots(config: RunConfig) -> list[Slot]:
 
 
 def make_cases(store: Store, config: RunConfig, workers: int) -> None:
-    """Write cases.parquet and bodies.parquet; parts that are there already are not made again."""
-    if store.has("cases.parquet"):
-        return
+    """Write cases.parquet and bodies.parquet; shards that are there already are not made again."""
     all_slots = slots(config)
     chunks = [all_slots[i:i + CHUNK] for i in range(0, len(all_slots), CHUNK)]
-    names = [("parts", "cases", f"{i:05d}.parquet") for i in range(len(chunks))]
-    bodies = [("parts", "bodies", name[-1]) for name in names]
+    facts = {**origin.facts(), "seed": config.seed, "label_seconds": config.label_seconds, "own": ownfile.digests(config.scenario_files)}
+    names = [store.shard("cases", **facts, slots=[asdict(slot) for slot in chunk]) for chunk in chunks]
+    bodies = [store.shard("bodies", cases=name.key) for name in names]
 
     def keep(i):
         def done(results):
             found = {row["body"]: row for _, rows in results for row in rows}
-            store.write(pd.DataFrame(list(found.values())), *bodies[i])
-            store.write(pd.DataFrame([row for row, _ in results]), *names[i])
+            store.write(pd.DataFrame(list(found.values())), bodies[i])
+            store.write(pd.DataFrame([row for row, _ in results]), names[i])
         return done
 
     tasks = [Task(_open, config.seed, chunk, keep(i), lambda slot, status, detail: _lost(config.seed, slot, detail))
-             for i, chunk in enumerate(chunks) if not store.has(*names[i])]
+             for i, chunk in enumerate(chunks) if not (names[i].ready() and bodies[i].ready())]
     with stage("certify cases", len(all_slots), len(all_slots) - sum(len(t.items) for t in tasks)) as advance:
         run(mixed(tasks), workers, config.label_seconds, store.path("workers.log"), advance, partial(load_files, config))
-    cases = pd.concat([store.read(*name) for name in names], ignore_index=True)
-    found = pd.concat([store.read(*name) for name in bodies], ignore_index=True).drop_duplicates("body", ignore_index=True)
+    cases = pd.concat([store.read(name) for name in names], ignore_index=True)
+    found = pd.concat([store.read(name) for name in bodies], ignore_index=True).drop_duplicates("body", ignore_index=True)
     store.write(found, "bodies.parquet")
     store.write(cases, "cases.parquet")
 

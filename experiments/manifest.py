@@ -32,7 +32,7 @@ def machine() -> dict:
 
 def versions(config: RunConfig) -> dict:
     engines = {m.engine for spec in config.asked for m in registry.make(spec)}
-    return {name: _version(name) for name in sorted(engines | set(LIBRARIES))}
+    return {name: version(name) for name in sorted(engines | set(LIBRARIES))}
 
 
 def build() -> dict:
@@ -57,7 +57,8 @@ def now() -> str:
     return datetime.now(timezone.utc).isoformat(timespec="seconds")
 
 
-def _version(name: str) -> str | None:
+def version(name: str) -> str | None:
+    """Of an installed distribution; None where it is not installed."""
     try:
         return metadata.version(name)
     except metadata.PackageNotFoundError:

@@ -15,6 +15,11 @@ console = Console(stderr=True)
 LINE = 60.0  # seconds between lines where there is no terminal
 
 
+def say(text: str) -> None:
+    """A notice to the reader, beside the tables."""
+    console.print(text, markup=False, highlight=False)
+
+
 class Forecast:
     """Seconds left of a run of several stages, from what was planned for each and how fast the work has gone so far.
 

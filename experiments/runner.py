@@ -12,12 +12,14 @@ from pathlib import Path
 import pandas as pd
 
 from baselines import registry
+from ofg import decomposition, piecefile
 
-from . import answering, curves, declared, entries, figures, labelling, manifest, progress, scenarios, tables, timing
+from . import answering, curves, declared, entries, figures, labelling, manifest, origin, ownfile, progress, scenarios, tables, timing
 from .config import ConfigError, RunConfig
+from .progress import say
 from .report import report as html_report
 from .stepping import experiment as stepping
-from .store import Store
+from .store import Store, StoreError
 
 
 # One label, one process that imports an engine, one case asked of one method, one timed call: only the plan that a run starts from.
@@ -32,23 +34,43 @@ def run(config: RunConfig, folder: Path, workers: int | None = None, skip_missin
         raise ConfigError("An engine that this run asks for is not installed. " + " ".join(absent) + " Or leave its rows "
                           "empty with --skip-missing.")
     store = Store(folder)
-    store.begin(config)
-    if not store.has("manifest.json"):
-        note(store, started=manifest.now(), commit=manifest.commit(), versions=manifest.versions(config), build=manifest.build(), before=manifest.machine(),
-             **declared.of(config))
-    workers = workers or os.cpu_count() or 1
-    if "finished" in facts(store):
-        return report(store)
+    with store.held(config):
+        if "finished" in facts(store):
+            made = report(store)
+            shutil.rmtree(store.folder / "parts", ignore_errors=True)
+            say(f"The run in {folder} is finished, nothing was run; its tables were made anew.")
+            return made
+        begin(store, config)
+        return finish(store, config, workers or os.cpu_count() or 1)
+
+
+def begin(store: Store, config: RunConfig) -> None:
+    """Say in manifest.json what the run is made with; what an unfinished run made with other code is left behind by its key."""
+    before, code = facts(store), origin.code()
+    if before and before.get("code") != code:
+        say(f"The run in {store.folder} was begun with another state of the code; what it had finished is made again.")
+    own = {name: digest for name, digest in zip(ownfile.copies(config), ownfile.digests(config.method_files + config.scenario_files))}
+    note(store, started=before.get("started", manifest.now()), commit=manifest.commit(), code=code, versions=manifest.versions(config),
+         build=manifest.build(), before=manifest.machine(), **({"own_files": own} if own else {}),
+         **declared.of(config))
+    if lost := piecefile.fault(decomposition.cache_folder()):
+        say(lost)
+
+
+def finish(store: Store, config: RunConfig, workers: int) -> list[tables.Table]:
+    """Make what is not there yet, and the tables of it all."""
     if config.stepping:
         stepping.measure(store, config)
-        note(store, finished=manifest.now(), after=manifest.machine(), sha256=manifest.hashes(store.folder))
+        more = {}
     else:
         with progress.forecast(plan(config, workers)) as forecast:
             labelling.make_cases(store, config, workers)
             answering.ask(store, config, workers, Paces(store, config, workers, forecast).told)
             timing.measure(store, config)
-        note(store, finished=manifest.now(), after=manifest.machine(), workers=workers, halfway=halfway(forecast),
-             sha256=manifest.hashes(store.folder))
+        more = {"workers": workers, "halfway": halfway(forecast)}
+    if changed := ownfile.changed(config, store.folder):
+        raise StoreError(changed)
+    note(store, finished=manifest.now(), after=manifest.machine(), sha256=manifest.hashes(store.folder), **more)
     made = report(store)
     shutil.rmtree(store.folder / "parts", ignore_errors=True)
     return made

@@ -29,12 +29,14 @@ import pandas as pd
 from baselines import registry
 from ofg import Body, Motion, Pose, Query
 
+from . import manifest, origin, ownfile
 from .answering import PACES
 from .case import Case
 from .config import RunConfig, TimingChoice, load_files
 from .pool import Task, run
 from .progress import stage
 from .rows import cases_of
+from .shard import Shard
 from .store import Store
 
 SIZES = ((0, "to 24"), (25, "25-150"), (151, "151-700"), (701, "over 700"))  # least number of faces, name
@@ -60,18 +62,26 @@ class Bin:
 
 def measure(store: Store, config: RunConfig) -> None:
     """Write timings.parquet: a row per bin, method and case (and floor), with the nanoseconds of each round."""
-    if store.has("timings.parquet") or not config.timing.cases:
+    if not config.timing.cases:
         return
     bins = choose(store, config)
-    names = [("parts", "timings", f"{i:03d}.parquet") for i in range(len(bins))]
+    names = [_shard(store, config, bin_) for bin_ in bins]
     seconds = [max(1, round(s)) for s in expected(store, bins, config.timing)]
-    there = [store.has(*name) for name in names]
+    there = [name.ready() for name in names]
     with stage("time methods", sum(seconds), sum(s for s, t in zip(seconds, there) if t), sum(seconds)) as advance:
         for bin_, name, planned in ((b, n, s) for b, n, s, t in zip(bins, names, seconds, there) if not t):
-            store.write(pd.DataFrame(measure_bin(store, config, bin_, max(600.0, 20.0 * planned)), columns=COLUMNS), *name)
+            store.write(pd.DataFrame(measure_bin(store, config, bin_, max(600.0, 20.0 * planned)), columns=COLUMNS), name)
             advance(planned)
-    parts = [store.read(*name) for name in names]
+    parts = [store.read(name) for name in names]
     store.write(pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=COLUMNS), "timings.parquet")
+
+
+def _shard(store: Store, config: RunConfig, bin_: Bin) -> Shard:
+    engines = sorted({m.engine for spec in config.asked for m in registry.make(spec)})
+    methods = {label: sorted(ids) for label, ids in bin_.methods.items()}
+    return store.shard("timings", **origin.facts(), engines={name: manifest.version(name) for name in engines},
+                       cases=store.digest("cases.parquet"), own=ownfile.digests(config.method_files), timing=config.timing.model_dump(),
+                       bin=[bin_.question, bin_.faces, bin_.situation, [case.id for case in bin_.cases], methods])
 
 
 def choose(store: Store, config: RunConfig) -> list[Bin]:

@@ -6,6 +6,7 @@ from functools import partial
 
 import pandas as pd
 
+from .. import origin
 from ..config import ConfigError, RunConfig, SteppingChoice, closest, load_files
 from ..pool import Task, mixed, run
 from ..progress import forecast, stage
@@ -30,22 +31,22 @@ def measure(store: Store, config: RunConfig) -> None:
 
     A contestant whose engine is absent, or dies, has one row with the reason and no counts.
     """
-    if store.has("stepping.parquet"):
-        return
     choice = config.stepping
     cells = [(s, c) for s in SCENES if s.name in (choice.scenes or [s.name]) for c in track.CONTESTANTS]
-    names = [("parts", "stepping", f"{i:03d}.parquet") for i in range(len(cells))]
-    tasks = [_task(store, config, cell, name) for cell, name in zip(cells, names) if not store.has(*name)]
+    facts = {"seed": config.seed, "choice": choice.model_dump()}
+    names = [store.shard("stepping", **facts, **origin.facts(track.method_of(c).engine), scene=s.name, contestant=c.name)
+             for s, c in cells]
+    tasks = [_task(store, config, cell, name) for cell, name in zip(cells, names) if not name.ready()]
     with forecast({"step": 0.0}), stage("step", len(cells), len(cells) - len(tasks)) as advance:
         run(mixed(tasks), 1, SECONDS, store.path("workers.log"), advance, partial(load_files, config))
-    store.write(pd.concat([store.read(*name) for name in names], ignore_index=True), "stepping.parquet")
+    store.write(pd.concat([store.read(name) for name in names], ignore_index=True), "stepping.parquet")
 
 
 def _task(store: Store, config: RunConfig, cell, name) -> Task:
     scene, contestant = (thing.name for thing in cell)
 
     def done(results):
-        store.write(pd.DataFrame(results[0], columns=COLUMNS).astype({"runs": "Int64", "tunnelled": "Int64"}), *name)
+        store.write(pd.DataFrame(results[0], columns=COLUMNS).astype({"runs": "Int64", "tunnelled": "Int64"}), name)
 
     return Task(_open, config, [(scene, contestant)], done, lambda item, status, detail: [_nothing(*item, f"{status}: {detail}")])
 

@@ -99,12 +99,17 @@ def table(rows: pd.DataFrame, scene: str) -> pd.DataFrame:
 
 def absent(contestant: Contestant) -> str | None:
     """None if the contestant's engine can be imported here, else the reason and the remedy."""
+    return registry.available(method_of(contestant))
+
+
+def method_of(contestant: Contestant) -> type[registry.Method]:
+    """A method of the contestant's engine."""
     keywords = getattr(contestant.make, "keywords", {})
     if "method" in keywords:
-        return registry.available(type(registry.make(keywords["method"])[0]))
+        return type(registry.make(keywords["method"])[0])
     make = getattr(contestant.make, "func", contestant.make)
-    return registry.available({"pybullet": registry.methods()["bullet"], "mujoco": registry.methods()["mujoco"],
-                               "rapier3d": registry.methods()["rapier"]}[make.engine])
+    return {"pybullet": registry.methods()["bullet"], "mujoco": registry.methods()["mujoco"],
+            "rapier3d": registry.methods()["rapier"]}[make.engine]
 
 
 def _dt(contestant: Contestant) -> float:
