@@ -16,6 +16,7 @@ from ofg import BodyError
 
 from . import config as configuration
 from . import scenarios
+from .crew import MachineError
 from .store import Store, StoreError
 
 app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", pretty_exceptions_enable=False, add_completion=False,
@@ -361,6 +362,9 @@ def main() -> None:
     except (ValueError, StoreError, BodyError, ImportError) as error:
         Console(stderr=True).print(f"[bold red]Error.[/] {escape(str(error))}", highlight=False, soft_wrap=False)
         sys.exit(2)
+    except MachineError as error:  # what no answer is to blame for: the run stops, and can go on
+        Console(stderr=True).print(f"[bold red]Stopped.[/] {escape(str(error))}", highlight=False, soft_wrap=False)
+        sys.exit(1)
     except KeyboardInterrupt:
         Console(stderr=True).print("\nInterrupted. What is finished is kept; say the same command again to go on.")
         sys.exit(130)
