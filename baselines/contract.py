@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from math import nan
+from math import isnan, nan
 from typing import Any, Callable, ClassVar, Mapping
+
+import numpy as np
 
 from ofg import Query
 
@@ -13,7 +15,7 @@ from .errors import MissingEngine, Unsupported
 from .frames import stated
 from .parameter import Allowed, fault
 
-__all__ = ["Method", "MissingEngine", "Unsupported", "Verdict"]
+__all__ = ["Method", "MissingEngine", "Unsupported", "Verdict", "checked"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +24,25 @@ class Verdict:
 
     hit: bool
     time: float = nan
+
+
+def checked(said: object) -> Verdict:
+    """What a method returned, with a plain bool and a plain float.
+
+    Raises TypeError or ValueError, with words for its row, where it is no clear answer.
+    """
+    if not isinstance(said, Verdict):
+        kind = type(said).__name__
+        raise TypeError(f"returned {kind}, not a Verdict (of baselines.contract)")
+    hit, time = said.hit, said.time
+    if not isinstance(hit, (bool, np.bool_)) and not (isinstance(hit, int) and hit in (0, 1)):
+        raise TypeError(f"hit is of type {type(hit).__name__}, neither True nor False")
+    if isinstance(time, bool) or not isinstance(time, (int, float, np.integer, np.floating)):
+        raise TypeError(f"time of impact is of type {type(time).__name__}, not a number")
+    time = float(time)
+    if not isnan(time) and not 0 <= time <= 1:
+        raise ValueError(f"time of impact {time!r} is outside the step [0, 1]")
+    return Verdict(bool(hit), time if hit else nan)
 
 
 class Method(ABC):

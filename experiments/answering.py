@@ -10,9 +10,9 @@ from typing import Callable
 import pandas as pd
 
 from baselines import registry
-from baselines.contract import MissingEngine, Unsupported, Verdict
+from baselines.contract import MissingEngine, Unsupported, Verdict, checked
 
-from . import origin, ownfile
+from . import origin, ownfile, words
 from .case import Case
 from .config import RunConfig, load_files
 from .pool import Task, limit, mixed, run
@@ -58,8 +58,8 @@ def _task(store: Store, config: RunConfig, method, chunk: list[Case], name, told
         frame = pd.DataFrame(rows, columns=COLUMNS + PACE).astype({"hit": "boolean"})
         store.write(frame, name)
 
-    def lost(case, status, detail):
-        return _row(case, method.label, status, detail=detail)
+    def lost(case, loss):
+        return _row(case, method.label, loss.status, detail=loss.detail)
 
     return Task(_open, (method.label, config), chunk, done, lost)
 
@@ -70,34 +70,48 @@ def _open(argument: tuple[str, RunConfig]):
         (method,) = registry.make(spec)
         reason = registry.available(type(method))
     except MissingEngine as error:
-        reason = str(error)
+        reason = words.text_of(error)
+    except BaseException as error:  # its constructor is the method's too
+        reason = words.of_error(error)
+        return lambda case: _row(case, spec, "error", detail=reason)
     if reason:
         return lambda case: _row(case, spec, "unsupported", detail=reason)
-    return lambda case: answer(method, case, config)
+    return lambda case: answer(method, case, config, spec)
 
 
-def answer(method, case: Case, config: RunConfig) -> dict:
-    """The observation row of one method at one case. An exception of the engine is its answer: status `error`."""
+def answer(method, case: Case, config: RunConfig, label: str | None = None) -> dict:
+    """The observation row of one method at one case. Whatever it raises is its answer: status `error`.
+
+    label: the method's, where it is known; a method may change its own while it runs.
+    """
+    label = label or method.label
     try:
         start = perf_counter()
         with limit(config.build_seconds):
             ask_it = method.ready(case.query)
         built = perf_counter()
         with limit(config.query_seconds):
-            verdict = ask_it()
+            said = ask_it()
         pace = {"build_s": built - start, "query_s": perf_counter() - built}
-    except Unsupported as refusal:
-        return _row(case, method.label, "unsupported", detail=str(refusal))
-    except MissingEngine as missing:
-        return _row(case, method.label, "unsupported", detail=str(missing))
-    except Exception as error:
-        return _row(case, method.label, "error", detail=f"{type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}"[:200])
-    if not isinstance(verdict, Verdict):
-        return _row(case, method.label, "error", detail=f"returned {type(verdict).__name__}, not a Verdict (of baselines.contract)")
-    time = float(verdict.time)
-    if not math.isnan(time) and not 0 <= time <= 1:
-        return _row(case, method.label, "error", detail=f"time of impact {time!r} is outside the step [0, 1]")
-    return {**_row(case, method.label, "ok", bool(verdict.hit), time if verdict.hit else math.nan), **pace}
+        verdict = _checked(said)
+    except (Unsupported, MissingEngine) as refusal:
+        return _row(case, label, "unsupported", detail=words.text_of(refusal))
+    except _Unclear as unclear:
+        return _row(case, label, "error", detail=str(unclear))
+    except BaseException as error:  # SystemExit, and the panics of pyo3, are none of Exception
+        return _row(case, label, "error", detail=words.of_error(error))
+    return {**_row(case, label, "ok", verdict.hit, verdict.time), **pace}
+
+
+class _Unclear(Exception):
+    """What a method returned is no clear answer; the message says why."""
+
+
+def _checked(said) -> Verdict:
+    try:
+        return checked(said)
+    except (TypeError, ValueError) as error:
+        raise _Unclear(words.text_of(error)) from error
 
 
 def _row(case: Case, method: str, status: str, hit=None, time=math.nan, detail="") -> dict:

@@ -16,8 +16,9 @@ from ofg import BodyError
 from . import config as configuration
 from . import given, scenarios
 from .given import markup
+from .machine import ERRNOS, MachineError
 from .reading import opened, reading
-from .store import MACHINE, MachineError, Store, StoreError
+from .store import Store, StoreError
 
 app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", pretty_exceptions_enable=False, add_completion=False,
                   help="""Benchmark collision detection on cases whose true answers are certified.
@@ -385,8 +386,8 @@ def _extend(methods, scenario_files) -> None:
         scenarios.load_file(path)
 
 
-def _failed(text: str, code: int) -> int:
-    Console(stderr=True).print(f"[bold red]Error.[/] {markup(text)}", highlight=False, soft_wrap=False)
+def _failed(text: str, code: int, word: str = "Error") -> int:
+    Console(stderr=True).print(f"[bold red]{word}.[/] {markup(text)}", highlight=False, soft_wrap=False)
     return code
 
 
@@ -395,13 +396,13 @@ def main() -> None:
     try:
         app()
     except MachineError as error:
-        sys.exit(_failed(str(error), 1))
+        sys.exit(_failed(str(error), 1, "Stopped"))
     except (ValueError, StoreError, BodyError, ImportError) as error:
         sys.exit(_failed(str(error), 2))
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         sys.exit(_failed(f"{where}{error.strerror or error}. Make it readable and writable, or free some space; what is finished "
-                         "is kept: say the same command again.", 1 if error.errno in MACHINE else 2))
+                         "is kept: say the same command again.", 1 if error.errno in ERRNOS else 2))
     except KeyboardInterrupt:
         Console(stderr=True).print("\nInterrupted. What is finished is kept; say the same command again to go on.")
         sys.exit(130)

@@ -7,17 +7,19 @@ from functools import partial
 
 import pandas as pd
 
-from . import origin, ownfile, scenarios
+from . import origin, ownfile, scenarios, words
 from .case import Case
 from .config import RunConfig, load_files
-from .pool import Task, mixed, run
+from .pool import Instead, Loss, Task, mark, mixed, run
 from .progress import stage
 from .rows import body_row, case_row
+from .scenario import ScenarioError
 from .store import Store
 from .truth.label import Truth
 
 REDRAWS = 50
 CHUNK = 16  # cases labelled by one process
+DRAWING = "drawing"  # what a process is marked with while a scenario's own code runs
 
 
 @dataclass(frozen=True)
@@ -27,6 +29,14 @@ class Slot:
     scenario: str
     level: float
     index: int
+
+
+@dataclass(frozen=True)
+class Unlabelled:
+    """A slot whose label was lost, and why: its case is drawn again, in a worker, as everything of a scenario is."""
+
+    slot: Slot
+    detail: str
 
 
 def slots(config: RunConfig) -> list[Slot]:
@@ -55,7 +65,7 @@ def make_cases(store: Store, config: RunConfig, workers: int) -> None:
             store.write(pd.DataFrame([row for row, _ in results]), names[i])
         return done
 
-    tasks = [Task(_open, config.seed, chunk, keep(i), lambda slot, status, detail: _lost(config.seed, slot, detail))
+    tasks = [Task(_open, config.seed, chunk, keep(i), partial(_lost, config.seed))
              for i, chunk in enumerate(chunks) if not (names[i].ready() and bodies[i].ready())]
     with stage("certify cases", len(all_slots), len(all_slots) - sum(len(t.items) for t in tasks)) as advance:
         run(mixed(tasks), workers, config.label_seconds, store.path("workers.log"), advance, partial(load_files, config))
@@ -68,22 +78,49 @@ def make_cases(store: Store, config: RunConfig, workers: int) -> None:
 def _open(seed: int):
     from .truth import label
 
-    return lambda slot: _label(seed, slot, label)
+    def answer(item: Slot | Unlabelled) -> tuple[dict, list[dict]]:
+        return _label(seed, item, label) if isinstance(item, Slot) else _uncertain(seed, item)
+
+    return answer
 
 
 def _label(seed: int, slot: Slot, label) -> tuple[dict, list[dict]]:
-    scenario = scenarios.get(slot.scenario)
     for attempt in range(REDRAWS):
-        case = scenario.case(seed, slot.level, slot.index, attempt)
+        case = _draw(seed, slot, attempt)
         truth = label(case.query)
-        if not scenario.useless(truth):
+        if not scenarios.get(slot.scenario).useless(truth):
             break
     return _rows(case, truth, attempt)
 
 
-def _lost(seed: int, slot: Slot, detail: str) -> tuple[dict, list[dict]]:
-    case = scenarios.get(slot.scenario).case(seed, slot.level, slot.index)
-    return _rows(case, Truth("uncertain", reason=f"labelling stopped: {detail}"), 0)
+def _draw(seed: int, slot: Slot, attempt: int = 0) -> Case:
+    """The case of a slot. ScenarioError, which names it, whatever the scenario raises."""
+    mark(DRAWING)
+    try:
+        return scenarios.get(slot.scenario).case(seed, slot.level, slot.index, attempt)
+    except ScenarioError:
+        raise
+    except BaseException as error:
+        raise _no_case(seed, slot, words.of_error(error)) from error
+    finally:
+        mark("")
+
+
+def _uncertain(seed: int, lost: Unlabelled) -> tuple[dict, list[dict]]:
+    truth = Truth("uncertain", reason=f"labelling stopped: {lost.detail}")
+    return _rows(_draw(seed, lost.slot), truth, 0)
+
+
+def _lost(seed: int, item: Slot | Unlabelled, loss: Loss) -> Instead:
+    """Have an uncertain case made of a slot whose label ended its process. ScenarioError where it was the drawing that did."""
+    if loss.mark == DRAWING or isinstance(item, Unlabelled):
+        raise _no_case(seed, item if isinstance(item, Slot) else item.slot, f"its process ended ({loss.detail})")
+    return Instead(Unlabelled(item, loss.detail))
+
+
+def _no_case(seed: int, slot: Slot, why: str) -> ScenarioError:
+    return ScenarioError(f"Scenario '{slot.scenario}' drew no case at level {slot.level:g}, index {slot.index}, seed {seed}: {why}. "
+                         "Mend its `generate`, or leave the scenario or the level out.")
 
 
 def _rows(case: Case, truth: Truth, attempt: int) -> tuple[dict, list[dict]]:

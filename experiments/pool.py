@@ -1,30 +1,24 @@
-"""Work in processes that may die: a crash or a hang costs the one item it happened at."""
+"""Work in processes that may die: a crash or a hang costs the one item it happened at, and a fault of the machine none."""
 
 from __future__ import annotations
 
-import contextlib
-import faulthandler
-import io
-import multiprocessing
-import os
-import pickle
 import random
-import resource
 import signal
-import tempfile
-import traceback
 from collections import deque
-from dataclasses import dataclass
-from multiprocessing.connection import wait
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Callable, Sequence
 
-# Imported once in the process that all workers are forked from; without it each worker takes a second to start. No engine is among them.
-PRELOAD = ["experiments.cli", "experiments.labelling", "experiments.answering", "experiments.timing", "experiments.truth"]
-# A process that the watchdog of `limit` ends leaves with this code (faulthandler calls _exit(1)).
-WATCHDOG_EXIT = 1
-RECYCLE_EXIT = 75  # of a worker that has grown past its memory: it loses nothing, the rest goes on in a fresh one
+from .crew import RESUME, Crew, Worker
+from .limits import deadline, limit, mark
+from .machine import MachineError
+from .worker import NO_CHANNEL, NO_MEMORY
+
+__all__ = ["Instead", "Loss", "MachineError", "Task", "WorkerError", "limit", "mark", "mixed", "run"]
+
 MEMORY = 4 << 30  # bytes a worker may hold
+TRIES = 6  # of one item that ends its process in a new way each time
+CODES = {NO_CHANNEL: "its results could not be sent", NO_MEMORY: "out of memory"}
 
 
 class WorkerError(RuntimeError):
@@ -32,28 +26,60 @@ class WorkerError(RuntimeError):
 
 
 @dataclass(frozen=True)
+class Loss:
+    """How an item was lost. status: "timeout" or "error". detail: in words. mark: what limits.mark said last."""
+
+    status: str
+    detail: str
+    mark: str = ""
+
+
+@dataclass(frozen=True)
+class Instead:
+    """What `Task.lost` returns to have this item asked, alone, in place of the lost one."""
+
+    item: Any
+
+
+@dataclass(frozen=True)
 class Task:
     """One worker process: open(argument) gives a function, which is then called with each item in turn.
 
-    done(results): called in the parent with one result per item, in order. lost(item, status, detail): makes the result of an
-    item at which the process died ("error") or hung ("timeout").
+    done(results): called in the parent with one result per item, in order. lost(item, loss): makes the result of an item that
+    ended its process, or an Instead.
     """
 
     open: Callable[[Any], Callable[[Any], Any]]
     argument: Any
     items: Sequence[Any]
     done: Callable[[list], None]
-    lost: Callable[[Any, str, str], Any]
+    lost: Callable[[Any, Loss], Any]
 
 
-@contextlib.contextmanager
-def limit(seconds: float):
-    """End this process if the block takes longer. Works while native code holds the interpreter lock, unlike a signal handler."""
-    faulthandler.dump_traceback_later(seconds, exit=True, file=_null())
-    try:
-        yield
-    finally:
-        faulthandler.cancel_dump_traceback_later()
+@dataclass
+class _Job:
+    """A task on its way. stage: "run" (all items that are left), "control", or "alone" (the next item). fates: how the
+    processes of the next item ended."""
+
+    task: Task
+    items: list[Any]
+    results: list[Any] = field(default_factory=list)
+    stage: str = "run"
+    fates: list[Loss] = field(default_factory=list)
+
+    @property
+    def undisturbed(self) -> bool:
+        """Nothing else of ours shall run beside it: memory, or the processor, may have been what ended the last one."""
+        return self.stage != "run" and self.fates[-1].detail in _OUTSIDE
+
+    def settle(self, result: Any) -> None:
+        """The next item has its result."""
+        if isinstance(result, Instead):
+            self.items[len(self.results)], self.stage = result.item, "alone"
+        else:
+            self.results.append(result)
+            self.stage = "run"
+        self.fates = []
 
 
 def mixed(tasks: Sequence[Task]) -> list[Task]:
@@ -63,88 +89,126 @@ def mixed(tasks: Sequence[Task]) -> list[Task]:
 
 def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance: Callable[[int], None] = lambda n: None,
         prepare: Callable[[], None] | None = None, memory: int = MEMORY) -> None:
-    """Run all tasks, each in a fresh process, `workers` at a time. seconds: limit for one item. log: what processes print.
-    prepare: called first in each process. memory: bytes after which a worker is replaced. ValueError where a worker
-    met bad input, WorkerError with its traceback where our own code fails.
+    """Run all tasks, each in a fresh process, `workers` at a time. seconds: of processor time for one item (see limits). log: what
+    processes print. prepare: called first in each process. memory: bytes after which a worker is replaced; twice as many it cannot
+    have. ValueError where a worker met bad input, WorkerError with its traceback where our own code fails, MachineError where the
+    machine does.
 
+    An item whose process dies, or passes the deadline, is asked again alone in a fresh process, after a trivial one that must
+    succeed. Only the same death twice makes it lost. A limit of processor time needs no second try.
     A fresh process for each task makes results independent of the number of workers: what an engine leaves in its memory
     is seen by the later items of the same task alone. No pool of a library does this: loky and concurrent.futures break as a
     whole when a worker dies; pebble names the task a worker died at, but broke too when one died between tasks, in its
     engine's destructors, as some do.
     """
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(PRELOAD)
-    queue, running = deque((task, []) for task in tasks), {}
-    with tempfile.TemporaryDirectory() as folder:
-        try:
-            while queue or running:
-                while queue and len(running) < workers:
-                    task, before = queue.popleft()
-                    journal = Path(folder, f"{id(task)}-{len(before)}")
-                    process = context.Process(target=_work, args=(prepare, task.open, task.argument, task.items[len(before):], seconds, memory, journal, log))
-                    process.start()
-                    running[process.sentinel] = process, task, before, journal
-                for sentinel in wait(running):
-                    process, task, before, journal = running.pop(sentinel)
-                    process.join()
-                    results = before + _read(journal)
-                    recycled = process.exitcode == RECYCLE_EXIT and len(results) > len(before)
-                    if len(results) < len(task.items) and not recycled:
-                        results.append(task.lost(task.items[len(results)], *_death(process.exitcode)))
-                    advance(len(results) - len(before))
-                    if len(results) < len(task.items):
-                        queue.appendleft((task, results))
-                    else:
-                        task.done(results)
-        finally:
-            for process, *_ in running.values():
-                process.kill()
+    queue = deque(_Job(task, list(task.items)) for task in tasks)
+    with Crew(log) as crew:
+        while queue or crew.workers:
+            while queue and _may_start(queue[0], [w.job for w in crew.workers.values()], workers):
+                job = queue.popleft()
+                crew.start(job, _payload(job, prepare, seconds, memory))
+            for worker, code in crew.wait():
+                job, before = worker.job, len(worker.job.results)
+                _conclude(job, worker, code)
+                advance(len(job.results) - before)
+                if len(job.results) < len(job.items):
+                    queue.appendleft(job)
+                else:
+                    job.task.done(job.results)
 
 
-def _work(prepare, open_, argument, items, seconds, memory, journal, log) -> None:
-    """In the worker: append each result to the journal as soon as it is there, so that a death loses the current item only."""
-    output = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
-    os.dup2(output, 1), os.dup2(output, 2)
-    with open(journal, "wb") as stream:
-        try:
-            with limit(max(60.0, seconds)):  # imports of engines, not an answer
-                if prepare:
-                    prepare()
-                answer = open_(argument)
-            for item in items:
-                with limit(seconds):
-                    result = answer(item)
-                pickle.dump(result, stream)
-                stream.flush()
-                if resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 > memory:
-                    os._exit(RECYCLE_EXIT)
-        except ValueError as error:  # bad input, said in words; where it came from is in the log
-            traceback.print_exc()
-            pickle.dump(ValueError(str(error)), stream)
-        except Exception:
-            pickle.dump(WorkerError(traceback.format_exc()), stream)
-    os._exit(0)  # past the destructors of engines, some of which crash
+def _may_start(job: _Job, running: list[_Job], workers: int) -> bool:
+    if job.undisturbed:
+        return not running
+    return len(running) < workers and not any(other.undisturbed for other in running)
 
 
-def _read(journal: Path) -> list[Any]:
-    stream, found = io.BytesIO(journal.read_bytes() if journal.exists() else b""), []
-    while True:
-        try:
-            found.append(pickle.load(stream))
-        except (EOFError, pickle.UnpicklingError):
-            return found
-        if isinstance(found[-1], (WorkerError, ValueError)):
-            raise found[-1]
+def _payload(job: _Job, prepare, seconds: float, memory: int) -> tuple:
+    if job.stage == "control":
+        return None, _control, None, [2], seconds, memory
+    left = job.items[len(job.results) :]
+    return prepare, job.task.open, job.task.argument, left if job.stage == "run" else left[:1], seconds, memory
 
 
-def _death(exitcode: int) -> tuple[str, str]:
-    """(status, detail) of the item that a process died at."""
-    if exitcode == WATCHDOG_EXIT:
-        return "timeout", "the limit for one item ran out"
-    return "error", "the process died: " + (signal.Signals(-exitcode).name if exitcode < 0 else f"exit code {exitcode}")
+def _control(_) -> Callable[[int], int]:
+    return lambda item: 2 * item
 
 
-def _null():
-    global _NULL
-    _NULL = globals().get("_NULL") or open(os.devnull, "w")
-    return _NULL
+def _conclude(job: _Job, worker: Worker, code: int | None) -> None:
+    """What the end of a worker means for its job."""
+    said = _said(worker)
+    complete = bool(worker.frames) and worker.frames[-1][0] in ("end", "recycle")
+    if job.stage == "control":
+        if code is not None:
+            _judge_control(job, complete and said == [4], worker, code)
+        return
+    if said:
+        job.fates = []
+    job.results += said
+    if complete or code is None or len(job.results) == len(job.items):
+        job.stage = "run" if said or not job.fates else job.stage
+    elif job.stage == "alone" and said:
+        job.stage = "run"
+    else:
+        _died(job, _fate(worker, code))
+
+
+def _said(worker: Worker) -> list[Any]:
+    """The results that it sent. Raises what it met in place of one."""
+    for kind, value in worker.frames:
+        if kind == "refused":
+            raise ValueError(value)
+        if kind == "bug":
+            raise WorkerError(value)
+    return [value for kind, value in worker.frames if kind == "result"]
+
+
+def _judge_control(job: _Job, succeeded: bool, worker: Worker, code: int) -> None:
+    if not succeeded:
+        raise MachineError(f"A process died ({job.fates[-1].detail}), and so did the next one, which was asked something trivial "
+                           f"({_fate(worker, code).detail}): it is the machine. {RESUME}")
+    job.stage = "alone"
+
+
+_DEADLINE = "no answer by the deadline"
+_OUTSIDE = (_DEADLINE, "SIGKILL", "SIGTERM", "SIGINT", "SIGHUP", "SIGBUS", CODES[NO_MEMORY])
+
+
+def _fate(worker: Worker, code: int) -> Loss:
+    """How a process ended, for the item that it was at."""
+    told = worker.page_mark
+    if worker.ended_for == "timeout" and worker.ended_at == worker.page_number or code == -signal.SIGPROF:
+        return Loss("timeout", "the limit for one item ran out", told)
+    if worker.ended_for:
+        return Loss("timeout", _DEADLINE, told)
+    if code < 0:
+        return Loss("error", _name(-code), told)
+    return Loss("error", CODES.get(code, f"exit code {code}"), told)
+
+
+def _name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:  # of the real-time signals two alone have a name
+        return f"signal {number}"
+
+
+def _died(job: _Job, fate: Loss) -> None:
+    """The next item of the job ended its process in this way."""
+    item = job.items[len(job.results)]
+    if fate.status == "timeout" and fate.detail != _DEADLINE:
+        job.settle(job.task.lost(item, fate))
+    elif job.fates and job.fates[-1].detail == fate.detail:
+        job.settle(job.task.lost(item, Loss(fate.status, _twice(fate.detail), fate.mark)))
+    elif len(job.fates) + 1 == TRIES:
+        ends = ", ".join(f.detail for f in (*job.fates, fate))
+        raise MachineError(f"One item ended its process in another way each time it was tried ({ends}). {RESUME}")
+    else:
+        job.fates.append(fate)
+        job.stage = "control"
+
+
+def _twice(detail: str) -> str:
+    """'killed twice, alone: SIGSEGV'; what ended itself, by an exit code, was not killed."""
+    killed = detail == _DEADLINE or detail.startswith(("SIG", "signal"))
+    return f"{'killed' if killed else 'ended itself'} twice, alone: {detail}"

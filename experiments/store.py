@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import errno
 import hashlib
 import json
 import shutil
@@ -17,21 +16,16 @@ from ofg import wholefile
 from . import given, lock, ownfile, record
 from .config import RunConfig, parsed
 from .inside import inside
+from .machine import ERRNOS, MachineError
 from .progress import say
 from .shard import Shard, key
 
 #: what a run makes before its config.json, or all that is left where that file was lost
 _OURS = {lock.NAME, ownfile.FOLDER, "parts", "workers.log", "manifest.json"}
-#: errors of the machine, whatever was asked; all else at the start is a folder that was badly chosen
-MACHINE = {errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG, errno.EMFILE, errno.ENFILE}
 
 
 class StoreError(RuntimeError):
     """A run folder that cannot be used; the message says why and what to do."""
-
-
-class MachineError(StoreError):
-    """The machine failed (a full or failing disk): what was finished is kept, and goes on later."""
 
 
 class Store:
@@ -175,8 +169,8 @@ class Store:
             raise MachineError(f"{path} could not be written: {error.strerror or error}. What was finished before is kept; free some "
                                f"space or make the folder writable, then say: ofg-bench resume {self.folder}") from error
 
-    def _unusable(self, error: OSError) -> StoreError:
-        kind, remedy = ((MachineError, "Free some space, then say the same command again") if error.errno in MACHINE
+    def _unusable(self, error: OSError) -> StoreError | MachineError:
+        kind, remedy = ((MachineError, "Free some space, then say the same command again") if error.errno in ERRNOS
                         else (StoreError, "Choose a folder that can be written with --out"))
         return kind(f"The folder {self.folder} cannot be used: {error.strerror or error}. {remedy}.")
 

@@ -15,11 +15,11 @@ Only cases that a method answered (status ok) are timed; building (`prepare`) is
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import os
 from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import Path
 from time import perf_counter_ns
 from typing import Callable
 
@@ -29,11 +29,11 @@ import pandas as pd
 from baselines import registry
 from ofg import Body, Motion, Pose, Query
 
-from . import manifest, origin, ownfile
+from . import manifest, origin, ownfile, words
 from .answering import PACES
 from .case import Case
 from .config import RunConfig, TimingChoice, load_files
-from .pool import Task, run
+from .pool import Task, mark, run
 from .progress import stage
 from .rows import cases_of
 from .shard import Shard
@@ -145,35 +145,63 @@ def situation_of(cases: pd.DataFrame) -> pd.Series:
 
 
 def measure_bin(store: Store, config: RunConfig, bin_: Bin, seconds: float) -> list[tuple]:
-    """Rows of COLUMNS for one bin. Where the process dies or hangs, the bin is timed again without the method that it was at."""
-    turn, lost = store.path("parts", "timings", "turn"), []
+    """Rows of COLUMNS for one bin. Where a method fails, or the process dies or hangs, the bin is timed again without the method that
+    it was at."""
+    lost = []
     while True:
         found = []
-        turn.write_text("")
-        task = Task(_open, (config.timing, turn), [bin_], found.extend, lambda item, status, detail: f"{status}, {detail}")
+        task = Task(_open, config.timing, [bin_], found.extend, lambda item, loss: Lost(loss.mark, f"{loss.status}, {loss.detail}"))
         # one worker: nothing else of ours runs while times are taken
         run([task], 1, seconds, store.path("workers.log"), prepare=partial(load_files, config))
-        if not isinstance(found[0], str):
+        if not isinstance(found[0], Lost):
             return found[0] + lost
-        label = turn.read_text()
-        lost.append((bin_.question, bin_.faces, bin_.situation, LOST, f"{label or 'all methods'}: {found[0]}", 0, []))
+        label, why = found[0].label, found[0].why
+        lost.append((bin_.question, bin_.faces, bin_.situation, LOST, f"{label or 'all methods'}: {why}", 0, []))
         if label not in bin_.methods:
             return lost
         bin_ = replace(bin_, methods={name: ids for name, ids in bin_.methods.items() if name != label})
 
 
-def _open(argument: tuple[TimingChoice, Path]):
-    timing, turn = argument
+@dataclass(frozen=True)
+class Lost:
+    """What a bin gives in place of times: the method it was at, and why it failed."""
+
+    label: str
+    why: str
+
+
+class _Failed(Exception):
+    """A method raised while it was timed; the message says what."""
+
+
+@contextlib.contextmanager
+def _turn(label: str):
+    """What is done on behalf of one method. Whatever it raises is its own."""
+    mark(label)
+    try:
+        yield
+    except BaseException as error:
+        raise _Failed(label, f"error, {words.of_error(error)}") from error
+
+
+def _open(timing: TimingChoice):
     os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
-    return lambda bin_: time_bin(bin_, timing, turn.write_text)
+
+    def answer(bin_: Bin) -> list[tuple] | Lost:
+        try:
+            return time_bin(bin_, timing)
+        except _Failed as failed:
+            return Lost(*failed.args)
+
+    return answer
 
 
-def time_bin(bin_: Bin, timing: TimingChoice, tell: Callable[[str], object] = lambda label: None) -> list[tuple]:
-    """Rows of COLUMNS for one bin. tell: called with the label of each method before its turn."""
+def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
+    """Rows of COLUMNS for one bin. The process is marked with the label of each method before its turn."""
     groups = []
     for label, answered in bin_.methods.items():
-        tell(label)
-        groups.append(_prepare(label, bin_, answered))
+        with _turn(label):
+            groups.append(_prepare(label, bin_, answered))
     groups.append([Call(PROBE, "", 0, _noise_probe())])
     times = {call: [] for group in groups for call in group}
     order = np.random.default_rng(0)
@@ -186,19 +214,24 @@ def time_bin(bin_: Bin, timing: TimingChoice, tell: Callable[[str], object] = la
             slow = once[i] > timing.seconds  # to which the caches do not matter: one warm-up is enough
             if slow and kept < 0 or kept >= 0 and not _takes_part(kept, rounds_within(once[i], timing), timing.rounds):
                 continue
-            tell(group[0].method)
-            begin = perf_counter_ns()
-            if not slow:
-                group[-1].ask()  # not timed: it meets caches full of another engine
-            for call in group:
-                start = perf_counter_ns()
-                call.ask()
-                elapsed = perf_counter_ns() - start
-                if kept >= 0:
-                    times[call].append(elapsed)
-            once[i] = (perf_counter_ns() - begin) / 1e9
+            with _turn(group[0].method):
+                once[i] = _round(group, not slow, times if kept >= 0 else None)
     gc.enable()
     return [(bin_.question, bin_.faces, bin_.situation, c.method, c.case, c.build_ns, rounds) for c, rounds in times.items()]
+
+
+def _round(group: list[Call], warm: bool, times: dict[Call, list[int]] | None) -> float:
+    """Ask each call once, and append what it took to `times`. Returns the seconds of all."""
+    begin = perf_counter_ns()
+    if warm:
+        group[-1].ask()  # not timed: it meets caches full of another engine
+    for call in group:
+        start = perf_counter_ns()
+        call.ask()
+        elapsed = perf_counter_ns() - start
+        if times is not None:
+            times[call].append(elapsed)
+    return (perf_counter_ns() - begin) / 1e9
 
 
 def _takes_part(r: int, wanted: int, rounds: int) -> bool:

@@ -163,8 +163,8 @@ def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
     tasks = []
     for method in (m for spec in config.asked for m in registry.make(spec)):
 
-        def lost(case, status, detail, label=method.label):
-            return answering._row(case, label, status, detail=detail)
+        def lost(case, loss, label=method.label):
+            return answering._row(case, label, loss.status, detail=loss.detail)
 
         tasks.append(pool.Task(answering._open, (method.label, config), [explained.case], rows.extend, lost))
     pool.run(tasks, 2, config.build_seconds + config.query_seconds, log, prepare=partial(load_files, config))

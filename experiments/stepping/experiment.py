@@ -48,7 +48,7 @@ def _task(store: Store, config: RunConfig, cell, name) -> Task:
     def done(results):
         store.write(pd.DataFrame(results[0], columns=COLUMNS).astype({"runs": "Int64", "tunnelled": "Int64"}), name)
 
-    return Task(_open, config, [(scene, contestant)], done, lambda item, status, detail: [_nothing(*item, f"{status}: {detail}")])
+    return Task(_open, config, [(scene, contestant)], done, lambda item, loss: [_nothing(*item, f"{loss.status}: {loss.detail}")])
 
 
 def _open(config: RunConfig):

@@ -56,9 +56,9 @@ def _asked(config, cases, workers, own, found: Findings) -> list[dict]:
             found.note(f"{spec} was not asked again: it is no method of this package (--trust).")
             continue
         for m in methods:
-            def lost(case, status, detail, label=m.label):
-                return {"case": case.id, "method": label, "status": status, "hit": None,
-                        "time": math.nan, "detail": detail}
+            def lost(case, loss, label=m.label):
+                return {"case": case.id, "method": label, "status": loss.status, "hit": None,
+                        "time": math.nan, "detail": loss.detail}
 
             chunks = [cases[i:i + answering.CHUNK] for i in range(0, len(cases), answering.CHUNK)]
             tasks += [Task(answering._open, (m.label, config), c, rows.extend, lost) for c in chunks]

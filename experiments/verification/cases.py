@@ -37,8 +37,8 @@ def check(store: Store, config, slots, names, workers, own, found: Findings) -> 
     chunks = [items[i:i + CHUNK] for i in range(0, len(items), CHUNK)]
     results = [[] for _ in chunks]
 
-    def lost(item, status, detail):
-        return {"case": item[0], "wrong": [f"checking stopped: {detail}"]}
+    def lost(item, loss):
+        return {"case": item[0], "wrong": [f"checking stopped: {loss.detail}"]}
 
     tasks = [Task(_open, (str(store.folder), config.seed), chunk, results[i].extend, lost)
              for i, chunk in enumerate(chunks)]

@@ -71,7 +71,7 @@ def test_an_engine_that_aborts_costs_its_own_rows(tmp_path):
     observations = Store(tmp_path / "run").read("observations.parquet")
     died = observations[observations.status != "ok"]
     assert 0 < len(died) < 30 and set(died.method) == {"fcl-distance"}
-    assert set(died.status) == {"error"} and set(died.detail) == {"the process died: SIGABRT"}
+    assert set(died.status) == {"error"} and set(died.detail) == {"killed twice, alone: SIGABRT"}
     assert len(observations) == 600
 
 

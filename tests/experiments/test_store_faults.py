@@ -14,7 +14,8 @@ import pytest
 
 from experiments import runner
 from experiments.config import RunConfig
-from experiments.store import MachineError, Store, StoreError
+from experiments.machine import MachineError
+from experiments.store import Store, StoreError
 
 CONFIG = RunConfig(seed=3, methods=["fcl-convex", "ofg k=8"], timing={"cases": 0}, scenarios=[
     {"name": "feature_gap", "cases": 10, "levels": [1e-2, -1e-2]},

@@ -45,5 +45,5 @@ def test_a_method_that_dies_loses_its_own_times_alone(tmp_path):
     assert all(len(rounds) == 3 for rounds in found[found.method != LOST].rounds_ns)
     store.write(found, "timings.parquet")
     (words,) = metrics.lost(store)
-    assert words.startswith("frail lives=3: error, the process died") and words in tables._state(store)
+    assert words.startswith("frail lives=3: error, killed twice, alone: SIGABRT") and words in tables._state(store)
     assert set(metrics.case_costs(store).method) == {"ofg k=8", "frail lives=1000"}
