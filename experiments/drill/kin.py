@@ -1,0 +1,68 @@
+"""The processes of a run, found from outside: by a mark in their environment, and by their place below the runner.
+
+Every process of a drill's run inherits the variable MARK; /proc keeps what a process was started with, so that neither a change
+of its environment nor a new session nor the death of its parent hides it.
+"""
+
+from __future__ import annotations
+
+import psutil
+
+MARK = "OFG_DRILL"
+WORKER, SERVER = "worker", "fork server"
+_GONE = (psutil.NoSuchProcess, psutil.AccessDenied, psutil.ZombieProcess)
+
+
+def marked(mark: str) -> list[psutil.Process]:
+    """All living processes that carry the mark. A zombie has no environment left and is none."""
+    return [p for p in psutil.process_iter() if _environment(p).get(MARK) == mark]
+
+
+def below(runner: int, role: str) -> list[psutil.Process]:
+    """Processes of the runner in a role.
+
+    SERVER: its children that have children of their own, or whose command line names a fork server. WORKER: what is below
+    a server, and the runner's other children, except Python's resource tracker, which answers nothing.
+    """
+    try:
+        children = [p for p in psutil.Process(runner).children() if "resource_tracker" not in _command(p)]
+        servers = [p for p in children if "forkserver" in _command(p) or p.children()]
+        if role == SERVER:
+            return servers
+        return [p for p in children if p not in servers] + [w for s in servers for w in s.children(recursive=True)]
+    except _GONE:
+        return []
+
+
+def describe(process: psutil.Process) -> str:
+    """'1234 python -c ...', for a message."""
+    return f"{process.pid} {_command(process)[:60]}".strip()
+
+
+def end(processes: list[psutil.Process]) -> None:
+    """kill -9, whatever state they are in."""
+    for process in processes:
+        send(process, "kill")
+
+
+def send(process: psutil.Process, what: str) -> bool:
+    """Call `kill`, `suspend` or `resume` of a process that may be gone; whether it was there."""
+    try:
+        getattr(process, what)()
+        return True
+    except _GONE:
+        return False
+
+
+def _environment(process: psutil.Process) -> dict[str, str]:
+    try:
+        return process.environ()
+    except (*_GONE, OSError):
+        return {}
+
+
+def _command(process: psutil.Process) -> str:
+    try:
+        return " ".join(process.cmdline())
+    except _GONE:
+        return ""
