@@ -1,6 +1,8 @@
-"""`python -m experiments.drill`: run the command line under every fault and with every faulty method; print what came of it.
+"""`python -m experiments.drill`: run the command line under every fault and with every faulty
+method; print what came of it.
 
-Exit code 0: every try ended equal to the undisturbed run, or stopped with a reason and then ended so. 1: any did not.
+Exit code 0: every try ended equal to the undisturbed run, or stopped with a reason and then ended
+so. 1: any did not.
 """
 
 from __future__ import annotations
@@ -29,8 +31,9 @@ from .ward import BATCH, Ward
 HERE = Path(__file__).parent
 FAULTY, MEMORY = "faulty methods", "memory"
 ALLOCATES = "faulty-allocates-without-end"
+EVERY = (*(f.name for f in FAULTS), MEMORY, FAULTY)
 DRAWS = 10  # moments drawn until a fault strikes
-FEW = 10  # tries below which a drill is a short one, without the methods that wait for the wall deadline
+FEW = 10  # tries below which a drill is short: without methods that wait for the wall deadline
 
 
 @dataclass(frozen=True)
@@ -45,9 +48,9 @@ class Try:
 def main(words: list[str] | None = None) -> int:
     """The exit code; words: of the command line."""
     chosen = _arguments(words)
-    names = [f for f in (*(f.name for f in FAULTS), MEMORY, FAULTY) if not chosen.only or any(o in f for o in chosen.only)]
+    names = [f for f in EVERY if not chosen.only or any(word in f for word in chosen.only)]
     if not names:
-        print(f"No fault is called so. There are: {', '.join([*(f.name for f in FAULTS), MEMORY, FAULTY])}.", file=sys.stderr)
+        print(f"No fault is called so. There are: {', '.join(EVERY)}.", file=sys.stderr)
         return 2
     place = Path(tempfile.mkdtemp(prefix="ofg-drill-"))
     try:
@@ -60,24 +63,54 @@ def main(words: list[str] | None = None) -> int:
     print(tally.text(), *tally.reasons(), sep="\n")
     print(f"\n{tally.failed} failed." if tally.failed else "\nNone failed.")
     if chosen.out:
-        chosen.out.write_text("\n".join([_title(chosen), "", tally.text("github"), "", *(f"- {r}" for r in tally.reasons()), ""]))
+        chosen.out.write_text(
+            "\n".join(
+                [
+                    _title(chosen),
+                    "",
+                    tally.text("github"),
+                    "",
+                    *(f"- {r}" for r in tally.reasons()),
+                    "",
+                ]
+            )
+        )
     return 1 if tally.failed else 0
 
 
 def _arguments(words) -> argparse.Namespace:
-    parser = argparse.ArgumentParser("python -m experiments.drill", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tries", type=int, default=50, help="of each kill; of other faults a fifth of it [50; below 10: a short drill]")
-    parser.add_argument("--only", action="append", help="faults whose name contains this; may be repeated")
-    parser.add_argument("--kind", action="append", help="faulty methods whose name contains this; may be repeated")
+    parser = argparse.ArgumentParser(
+        "python -m experiments.drill",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--tries",
+        type=int,
+        default=50,
+        help="of each kill; of other faults a fifth of it [50; below 10: a short drill]",
+    )
+    parser.add_argument(
+        "--only", action="append", help="faults whose name contains this; may be repeated"
+    )
+    parser.add_argument(
+        "--kind", action="append", help="faulty methods whose name contains this; may be repeated"
+    )
     parser.add_argument("--seed", type=int, default=0, help="of the moments")
     parser.add_argument("--jobs", type=int, default=1, help="tries at once, each with two workers")
     parser.add_argument("--out", type=Path, help="also write the table into this Markdown file")
-    parser.add_argument("--program", nargs="+", default=[str(Path(sys.executable).with_name("ofg-bench"))], help="what is drilled [ofg-bench]")
+    parser.add_argument(
+        "--program",
+        nargs="+",
+        default=[str(Path(sys.executable).with_name("ofg-bench"))],
+        help="what is drilled [ofg-bench]",
+    )
     return parser.parse_args(words)
 
 
 def _title(chosen) -> str:
-    return f"`python -m experiments.drill --tries {chosen.tries} --seed {chosen.seed}`: final files of accuracy against the undisturbed run."
+    command = f"python -m experiments.drill --tries {chosen.tries} --seed {chosen.seed}"
+    return f"`{command}`: final files of accuracy against the undisturbed run."
 
 
 def _drill(chosen, names: list[str], place: Path) -> Tally:
@@ -86,20 +119,29 @@ def _drill(chosen, names: list[str], place: Path) -> Tally:
     wanted = [f for f in FAULTS if f.name in names]
     if wanted:
         bench, _ = measure.undisturbed(Bench(program, HERE / "drill.toml"), place / "undisturbed")
-        tries += [_of_fault(f, bench, chosen.seed, i) for f in wanted for i in range(_times(f, chosen.tries))]
+        tries += [
+            _of_fault(f, bench, chosen.seed, i)
+            for f in wanted
+            for i in range(_times(f, chosen.tries))
+        ]
     if {MEMORY, FAULTY} & set(names):
         ward = Ward(*measure.undisturbed(Bench(program, HERE / "faulty.toml"), place / "healthy"))
         tries += _of_memory(ward, names) + _of_methods(ward, chosen, names)
     for name in names:
         tally.name(name, next((f.note() for f in FAULTS if f.name == name), ""))
-    with ThreadPoolExecutor(chosen.jobs) as pool, stage("drill", sum(t.weight for t in tries)) as advance:
+    with (
+        ThreadPoolExecutor(chosen.jobs) as pool,
+        stage("drill", sum(t.weight for t in tries)) as advance,
+    ):
         running = {pool.submit(_tried, t, place / f"{i:05d}"): t for i, t in enumerate(tries)}
         for done in as_completed(running):
             one = running[done]
             for what, outcome in done.result():
                 tally.add(one.fault, what, outcome)
                 if outcome and outcome.kind == FAILED:
-                    print(f"failed: {one.fault}, {what}: {outcome.why}", file=sys.stderr, flush=True)
+                    print(
+                        f"failed: {one.fault}, {what}: {outcome.why}", file=sys.stderr, flush=True
+                    )
             advance(one.weight)
     return tally
 
@@ -125,20 +167,31 @@ def _of_fault(fault: Fault, bench: Bench, seed: int, number: int) -> Try:
             except Missed:
                 pass
         return [(f"try {number}", None)]
+
     return Try(fault.name, run)
 
 
 def _of_memory(ward: Ward, names: list[str]) -> list[Try]:
-    return [Try(MEMORY, lambda place: [(ALLOCATES, ward.visit([KINDS[ALLOCATES]], place / "run"))])] if MEMORY in names else []
+    return (
+        [Try(MEMORY, lambda place: [(ALLOCATES, ward.visit([KINDS[ALLOCATES]], place / "run"))])]
+        if MEMORY in names
+        else []
+    )
 
 
 def _of_methods(ward: Ward, chosen, names: list[str]) -> list[Try]:
     """Kinds that wait in runs of their own, the others in batches."""
-    kinds = [k for k in KINDS.values() if not chosen.kind or any(word in k.name for word in chosen.kind)]
+    kinds = [
+        k for k in KINDS.values() if not chosen.kind or any(word in k.name for word in chosen.kind)
+    ]
     kinds = [k for k in kinds if not k.slow or chosen.tries >= FEW] if FAULTY in names else []
     quick = [k for k in kinds if not k.slow]
-    batches = [quick[i:i + BATCH] for i in range(0, len(quick), BATCH)] + [[k] for k in kinds if k.slow]
-    return [Try(FAULTY, lambda place, b=batch: _batch(ward, b, place), len(batch)) for batch in batches]
+    batches = [quick[i : i + BATCH] for i in range(0, len(quick), BATCH)] + [
+        [k] for k in kinds if k.slow
+    ]
+    return [
+        Try(FAULTY, lambda place, b=batch: _batch(ward, b, place), len(batch)) for batch in batches
+    ]
 
 
 def _batch(ward: Ward, kinds: list[Kind], place: Path) -> list[tuple[str, Outcome]]:

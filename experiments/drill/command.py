@@ -14,12 +14,14 @@ import psutil
 from . import kin
 
 GRACE = 0.5  # seconds after the runner's end in which what it started must be gone
-HANG = 240.0  # seconds: what a run may take beyond twenty times its undisturbed duration, as limits have to run out
+HANG = 240.0  # seconds beyond twenty times its undisturbed duration, as limits have to run out
 
 
 @dataclass(frozen=True)
 class Ending:
-    """How a command ended. code: None if it hung and was killed. text: all it printed. orphans: what was left of it."""
+    """How a command ended. code: None if it hung and was killed. text: all it printed. orphans:
+    what was left of it.
+    """
 
     code: int | None
     text: str
@@ -39,10 +41,22 @@ class Running:
     def __init__(self, words: list[str], place: Path, temporary: Path):
         self.mark, self.begun = uuid.uuid4().hex, time.monotonic()
         self.output = place / f"{self.mark}.log"
-        environment = {**os.environ, kin.MARK: self.mark, "TMPDIR": str(temporary), "COLUMNS": "200"}
+        environment = {
+            **os.environ,
+            kin.MARK: self.mark,
+            "TMPDIR": str(temporary),
+            "COLUMNS": "200",
+        }
         with self.output.open("wb") as stream:
-            self.process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=stream, stderr=stream, cwd=place,
-                                            env=environment, start_new_session=True)
+            self.process = subprocess.Popen(
+                words,
+                stdin=subprocess.DEVNULL,
+                stdout=stream,
+                stderr=stream,
+                cwd=place,
+                env=environment,
+                start_new_session=True,
+            )
 
     @property
     def age(self) -> float:
@@ -89,8 +103,9 @@ class Running:
 
 @dataclass(frozen=True)
 class Bench:
-    """What is drilled. program: the words that start it. seconds: what the run takes undisturbed. busy: since when it had
-    workers and until when. sums: digests of the files of accuracy of the undisturbed run. size: bytes of its folder.
+    """What is drilled. program: the words that start it. seconds: what the run takes undisturbed.
+    busy: since when it had workers and until when. sums: digests of the files of accuracy of the
+    undisturbed run. size: bytes of its folder.
     """
 
     program: tuple[str, ...]
@@ -116,7 +131,15 @@ class Attempt:
             folder.mkdir(parents=True)
 
     def start(self) -> Running:
-        words = [*self.bench.program, "run", str(self.bench.config), "--out", str(self.folder), "--workers", str(self.workers)]
+        words = [
+            *self.bench.program,
+            "run",
+            str(self.bench.config),
+            "--out",
+            str(self.folder),
+            "--workers",
+            str(self.workers),
+        ]
         return Running(words, self.place, self.temporary)
 
     def say(self) -> Ending:

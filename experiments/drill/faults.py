@@ -1,4 +1,6 @@
-"""The faults of a machine, each a function that runs one command under it at a moment that is drawn."""
+"""The faults of a machine, each a function that runs one command under it at a moment that is
+drawn.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ class Missed(Exception):
 
 @dataclass(frozen=True)
 class Fault:
-    """strike: does it to one attempt. rare: tried a fifth as often. seconds: what it adds to a run, for the forecast."""
+    """strike: does it to one attempt. rare: tried a fifth as often. seconds: what it adds to a
+    run, for the forecast.
+    """
 
     name: str
     strike: Strike
@@ -44,6 +48,7 @@ def undisturbed(attempt: Attempt, random: Random) -> Outcome:
 
 def signalled(number: int, halts: set[int]) -> Strike:
     """The runner gets a signal: alone, or with its process group where a terminal sends it so."""
+
     def strike(attempt: Attempt, random: Random) -> Outcome:
         running = attempt.start()
         struck = running.reach(random.uniform(0.02, attempt.bench.seconds))
@@ -53,11 +58,13 @@ def signalled(number: int, halts: set[int]) -> Strike:
         if not struck:
             raise Missed
         return settle(attempt, ending, frozenset(halts))
+
     return strike
 
 
 def killed(role: str) -> Strike:
     """kill -9 of one process of a role."""
+
     def strike(attempt: Attempt, random: Random) -> Outcome:
         running = attempt.start()
         struck = _at_one(running, role, attempt, random, "kill")
@@ -65,11 +72,15 @@ def killed(role: str) -> Strike:
         if not struck:
             raise Missed
         return settle(attempt, ending)
+
     return strike
 
 
 def stopped(role: str | None) -> Strike:
-    """SIGSTOP for longer than a limit, then SIGCONT. role: of one process, "" of the runner, None of all at once."""
+    """SIGSTOP for longer than a limit, then SIGCONT. role: of one process, "" of the runner, None
+    of all at once.
+    """
+
     def strike(attempt: Attempt, random: Random) -> Outcome:
         running = attempt.start()
         if role:
@@ -86,11 +97,16 @@ def stopped(role: str | None) -> Strike:
         if not struck:
             raise Missed
         return settle(attempt, ending)
+
     return strike
 
 
-def _at_one(running: Running, role: str, attempt: Attempt, random: Random, what: str) -> list[psutil.Process]:
-    """Do `what` to one process of the role, the first that is there from a drawn moment on; [] if none came any more."""
+def _at_one(
+    running: Running, role: str, attempt: Attempt, random: Random, what: str
+) -> list[psutil.Process]:
+    """Do `what` to one process of the role, the first that is there from a drawn moment on; [] if
+    none came any more.
+    """
     running.reach(random.uniform(*attempt.bench.busy))
     while not running.over:
         found = running.below(role)
@@ -100,7 +116,9 @@ def _at_one(running: Running, role: str, attempt: Attempt, random: Random, what:
 
 
 def full_disk(attempt: Attempt, random: Random) -> Outcome:
-    """The disk of the run folder has too little room; then there is some, and the command is said again."""
+    """The disk of the run folder has too little room; then there is some, and the command is said
+    again.
+    """
     size = _drawn(random, 4 * LEAST, attempt.bench.size)
     if not volume.mountable():
         return _short_files(attempt, max(size, 1 << 15))
@@ -134,7 +152,9 @@ def _drawn(random: Random, least: int, most: int) -> int:
 
 
 def read_only(attempt: Attempt, random: Random) -> Outcome:
-    """The run is killed, its disk is read-only when the command is said again, and then it can be written."""
+    """The run is killed, its disk is read-only when the command is said again, and then it can be
+    written.
+    """
     running = attempt.start()
     if running.reach(random.uniform(0.02, attempt.bench.seconds)):
         running.process.kill()
@@ -143,12 +163,16 @@ def read_only(attempt: Attempt, random: Random) -> Outcome:
     with volume.read_only(attempt.disk):
         ending = attempt.say()
     # a folder that cannot be written may be the user's mistake, whose exit code is 2
-    honest = Ending(1, ending.text, ending.orphans) if ending.code == 2 and ending.reason else ending
+    honest = (
+        Ending(1, ending.text, ending.orphans) if ending.code == 2 and ending.reason else ending
+    )
     return settle(attempt, honest)
 
 
 def two_runners(attempt: Attempt, random: Random) -> Outcome:
-    """The same command is said a second time while it still runs: the second is refused, or has nothing to do."""
+    """The same command is said a second time while it still runs: the second is refused, or has
+    nothing to do.
+    """
     first = attempt.start()
     if not first.reach(random.uniform(0.0, attempt.bench.seconds)):
         first.finish(attempt.bench.patience)
@@ -174,13 +198,21 @@ FAULTS = (
     Fault("kill -9 of the runner", signalled(signal.SIGKILL, {-signal.SIGKILL}), rare=False),
     Fault("kill -9 of a worker", killed(kin.WORKER), rare=False),
     Fault("kill -9 of the fork server", killed(kin.SERVER), rare=False),
-    Fault("SIGTERM of the runner", signalled(signal.SIGTERM, {-signal.SIGTERM, 128 + signal.SIGTERM})),
+    Fault(
+        "SIGTERM of the runner", signalled(signal.SIGTERM, {-signal.SIGTERM, 128 + signal.SIGTERM})
+    ),
     Fault("SIGINT of the runner", signalled(signal.SIGINT, {-signal.SIGINT, 128 + signal.SIGINT})),
     Fault("SIGSTOP of a worker", stopped(kin.WORKER), seconds=PAUSE),
     Fault("SIGSTOP of the runner", stopped(""), seconds=PAUSE),
     Fault("SIGSTOP of all", stopped(None), seconds=PAUSE),
     Fault("full run disk", full_disk, note=_how),
     Fault("full TMPDIR", full_temporary, note=_how),
-    Fault("read-only run folder", read_only, note=lambda: "a read-only mount" if volume.mountable() else "modes, as nothing can be mounted here"),
+    Fault(
+        "read-only run folder",
+        read_only,
+        note=lambda: (
+            "a read-only mount" if volume.mountable() else "modes, as nothing can be mounted here"
+        ),
+    ),
     Fault("two runners", two_runners),
 )

@@ -1,7 +1,9 @@
-"""The processes of a run, found from outside: by a mark in their environment, and by their place below the runner.
+"""The processes of a run, found from outside: by a mark in their environment, and by their place
+below the runner.
 
-Every process of a drill's run inherits the variable MARK; /proc keeps what a process was started with, so that neither a change
-of its environment nor a new session nor the death of its parent hides it.
+Every process of a drill's run inherits the variable MARK; /proc keeps what a process was started
+with, so that neither a change of its environment nor a new session nor the death of its parent
+hides it.
 """
 
 from __future__ import annotations
@@ -21,15 +23,20 @@ def marked(mark: str) -> list[psutil.Process]:
 def below(runner: int, role: str) -> list[psutil.Process]:
     """Processes of the runner in a role.
 
-    SERVER: its children that have children of their own, or whose command line names a fork server. WORKER: what is below
-    a server, and the runner's other children, except Python's resource tracker, which answers nothing.
+    SERVER: its children that have children of their own, or whose command line names a fork
+    server. WORKER: what is below a server, and the runner's other children, except Python's
+    resource tracker, which answers nothing.
     """
     try:
-        children = [p for p in psutil.Process(runner).children() if "resource_tracker" not in _command(p)]
+        children = [
+            p for p in psutil.Process(runner).children() if "resource_tracker" not in _command(p)
+        ]
         servers = [p for p in children if "forkserver" in _command(p) or p.children()]
         if role == SERVER:
             return servers
-        return [p for p in children if p not in servers] + [w for s in servers for w in s.children(recursive=True)]
+        return [p for p in children if p not in servers] + [
+            w for s in servers for w in s.children(recursive=True)
+        ]
     except _GONE:
         return []
 

@@ -28,8 +28,10 @@ def undisturbed(bench: Bench, place: Path) -> tuple[Bench, Path]:
         time.sleep(0.01)
     ending = running.finish(bench.patience)
     if ending.code != 0 or misconduct(ending):
-        raise Undrillable(f"The undisturbed run of {bench.config.name} did not finish (exit code "
-                          f"{ending.code}): {misconduct(ending) or ending.reason}")
+        raise Undrillable(
+            f"The undisturbed run of {bench.config.name} did not finish (exit code "
+            f"{ending.code}): {misconduct(ending) or ending.reason}"
+        )
     found = sums(attempt.folder)
     if "missing" in found:
         raise Undrillable(f"The undisturbed run of {bench.config.name} left no files of accuracy.")

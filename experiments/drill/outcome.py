@@ -10,6 +10,7 @@ from .command import Attempt, Ending
 
 FILES = ("cases.parquet", "bodies.parquet", "observations.parquet")
 EQUAL, HONEST, FAILED = "equal", "honest stop", "failed"
+WORDS = 5  # that a reason has at least: "Aborted." names nothing
 TRACEBACK = "Traceback (most recent call last)"
 
 
@@ -24,7 +25,9 @@ class Outcome:
 def sums(folder: Path) -> tuple[str, ...]:
     """SHA-256 of each file of accuracy of a run; "missing" where one is."""
     paths = [folder / name for name in FILES]
-    return tuple(hashlib.sha256(p.read_bytes()).hexdigest() if p.is_file() else "missing" for p in paths)
+    return tuple(
+        hashlib.sha256(p.read_bytes()).hexdigest() if p.is_file() else "missing" for p in paths
+    )
 
 
 def misconduct(ending: Ending) -> str:
@@ -37,9 +40,11 @@ def misconduct(ending: Ending) -> str:
 
 
 def settle(attempt: Attempt, ending: Ending, halts: frozenset[int] = frozenset()) -> Outcome:
-    """The outcome of a command that ended so. halts: exit codes that the fault itself accounts for.
+    """The outcome of a command that ended so. halts: exit codes that the fault itself accounts
+    for.
 
-    Where it stopped, the same command is said again; it must then finish with the files of the undisturbed run.
+    Where it stopped, the same command is said again; it must then finish with the files of the
+    undisturbed run.
     """
     if bad := misconduct(ending):
         return Outcome(FAILED, bad)
@@ -48,8 +53,8 @@ def settle(attempt: Attempt, ending: Ending, halts: frozenset[int] = frozenset()
     if ending.code not in halts:
         if ending.code != 1:
             return Outcome(FAILED, f"exit code {ending.code}: {ending.reason}")
-        if not ending.reason:
-            return Outcome(FAILED, "exit code 1 without a reason")
+        if len(ending.reason.split()) < WORDS:
+            return Outcome(FAILED, f"exit code 1 without a reason: '{ending.reason}'")
     again = attempt.say()
     if bad := misconduct(again):
         return Outcome(FAILED, f"said again: {bad}")
@@ -64,4 +69,8 @@ def settle(attempt: Attempt, ending: Ending, halts: frozenset[int] = frozenset()
 def _compare(attempt: Attempt) -> Outcome:
     found = sums(attempt.folder)
     changed = [name for name, a, b in zip(FILES, found, attempt.bench.sums) if a != b]
-    return Outcome(FAILED, f"exit code 0 with other bytes: {', '.join(changed)}") if changed else Outcome(EQUAL)
+    return (
+        Outcome(FAILED, f"exit code 0 with other bytes: {', '.join(changed)}")
+        if changed
+        else Outcome(EQUAL)
+    )

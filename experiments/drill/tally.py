@@ -36,13 +36,29 @@ class Tally:
 
     def text(self, form: str = "simple") -> str:
         """form: of tabulate, "github" for Markdown."""
-        rows = [(fault, sum(c.values()) - c["missed"], c[EQUAL], c[HONEST], c[FAILED], c["missed"], self.notes[fault])
-                for fault, c in self.counts.items()]
+        rows = [
+            (
+                fault,
+                sum(c.values()) - c["missed"],
+                c[EQUAL],
+                c[HONEST],
+                c[FAILED],
+                c["missed"],
+                self.notes[fault],
+            )
+            for fault, c in self.counts.items()
+        ]
         return tabulate(rows, HEADS, tablefmt=form)
 
     def reasons(self) -> list[str]:
-        """A line for each failure and each honest stop, at most SHOWN of a fault; alike ones are told once."""
+        """A line for each failure and each honest stop, at most SHOWN of a fault; alike ones are
+        told once.
+        """
         kept: dict[str, Counter] = defaultdict(Counter)
         for fault, what, why in self.whys:
             kept[fault][what.split(",")[0] + ": " + " ".join(why.split())] += 1
-        return [f"{fault}, {n} x {why}" for fault, whys in kept.items() for why, n in whys.most_common(SHOWN)]
+        return [
+            f"{fault}, {n} x {why}"
+            for fault, whys in kept.items()
+            for why, n in whys.most_common(SHOWN)
+        ]

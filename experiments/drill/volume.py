@@ -1,4 +1,6 @@
-"""A disk that fills up or turns read-only: a small tmpfs where it may be mounted, else the nearest that can be had, and said so."""
+"""A disk that fills up or turns read-only: a small tmpfs where it may be mounted, else the nearest
+that can be had, and said so.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ def mountable() -> bool:
 
 @contextlib.contextmanager
 def small(folder: Path, size: int) -> Iterator[None]:
-    """A tmpfs of `size` bytes at an empty folder. Ends with the block, whoever still holds a file on it. OSError if refused."""
+    """A tmpfs of `size` bytes at an empty folder. Ends with the block, whoever still holds a file
+    on it. OSError if refused.
+    """
     _do("mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder))
     try:
         yield
@@ -36,7 +40,9 @@ def resize(folder: Path, size: int) -> None:
 
 @contextlib.contextmanager
 def read_only(folder: Path) -> Iterator[None]:
-    """Nothing below `folder` can be written within the block: by a mount of itself, or by its modes where one may not mount."""
+    """Nothing below `folder` can be written within the block: by a mount of itself, or by its
+    modes where one may not mount.
+    """
     if mountable():
         _do("mount", "--bind", str(folder), str(folder))
         try:

@@ -25,7 +25,9 @@ _NOTICE = re.compile(r"warning|answered n|no answer|nothing", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Ward:
-    """bench: of the configuration without faulty methods. healthy: the folder of its undisturbed run."""
+    """bench: of the configuration without faulty methods. healthy: the folder of its undisturbed
+    run.
+    """
 
     bench: Bench
     healthy: Path
@@ -43,8 +45,14 @@ class Ward:
         place.mkdir(parents=True)
         text = self.bench.config.read_text()
         methods = [*tomllib.loads(text)["methods"], *(k.name for k in kinds)]
-        lines = re.sub(r"^methods = .*$", lambda _: f"methods = {json.dumps(methods)}\nmethod_files = "
-                       f"{json.dumps([str(METHOD_FILE)])}", text, flags=re.MULTILINE)
+        lines = re.sub(
+            r"^methods = .*$",
+            lambda _: (
+                f"methods = {json.dumps(methods)}\nmethod_files = {json.dumps([str(METHOD_FILE)])}"
+            ),
+            text,
+            flags=re.MULTILINE,
+        )
         path = place / self.bench.config.name
         path.write_text(lines)
         return path
@@ -62,7 +70,12 @@ class Ward:
         if (size := sum(p.stat().st_size for p in folder.rglob("*") if p.is_file())) > SIZE:
             return f"the run folder has {size >> 20} MiB"
         cases = list(dict.fromkeys(healthy.case))
-        return next(filter(None, (_ill(found[found.method == k.name], k, cases, ending.text) for k in kinds)), "")
+        return next(
+            filter(
+                None, (_ill(found[found.method == k.name], k, cases, ending.text) for k in kinds)
+            ),
+            "",
+        )
 
 
 def _same(found: pd.DataFrame, expected: pd.DataFrame) -> bool:
@@ -75,7 +88,8 @@ def _ill(rows: pd.DataFrame, kind: Kind, cases: list[str], text: str) -> str:
         return f"{kind.name} has {len(rows)} rows for {len(cases)} cases"
     if strange := set(rows.status) - kind.statuses:
         row = rows[rows.status.isin(strange)].iloc[0]
-        return f"{kind.name} is '{row.status}' ({row.detail}), not {' or '.join(sorted(kind.statuses))}"
+        wanted = " or ".join(sorted(kind.statuses))
+        return f"{kind.name} is '{row.status}' ({row.detail[:200]}), not {wanted}"
     for row in rows[rows.status.isin([ERROR, TIMEOUT])].itertuples():
         if not row.detail.strip() or len(row.detail) > WORDS or "nothing stopped me" in row.detail:
             return f"{kind.name} is '{row.status}' for the reason '{row.detail[:80]}'"

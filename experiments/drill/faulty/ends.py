@@ -13,12 +13,14 @@ from baselines.contract import Verdict
 
 from .kind import ERROR, OK, kind, once
 
-ENOUGH = 6 << 30  # bytes after which "allocates without end" gives up, so that the machine survives what does not stop it
+# Bytes after which "allocates without end" gives up: the machine survives what does not stop it.
+ENOUGH = 6 << 30
 
 
 def _exiting(name: str, leave, *statuses: str):
     def act(query, call):
         leave()
+
     act.__name__ = name
     kind(*(statuses or (ERROR,)))(act)
 
@@ -30,10 +32,29 @@ for _code in (0, 1):
     _exiting(f"c_exit_{_code}", lambda code=_code: ctypes.CDLL(None).exit(code))
 _exiting("aborts", os.abort)
 _exiting("segfaults", lambda: ctypes.string_at(0))
-_exiting("segfaults_silently", lambda: (faulthandler.disable(), signal.signal(signal.SIGSEGV, signal.SIG_DFL), ctypes.string_at(0)))
-for _signal in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGPIPE, signal.SIGFPE):
-    _exiting(f"{_signal.name.lower()}_to_itself", lambda number=_signal: (signal.signal(number, signal.SIG_DFL) if number != signal.SIGKILL else None,
-                                                                         os.kill(os.getpid(), number)))
+_exiting(
+    "segfaults_silently",
+    lambda: (
+        faulthandler.disable(),
+        signal.signal(signal.SIGSEGV, signal.SIG_DFL),
+        ctypes.string_at(0),
+    ),
+)
+for _signal in (
+    signal.SIGKILL,
+    signal.SIGTERM,
+    signal.SIGINT,
+    signal.SIGHUP,
+    signal.SIGPIPE,
+    signal.SIGFPE,
+):
+    _exiting(
+        f"{_signal.name.lower()}_to_itself",
+        lambda number=_signal: (
+            signal.signal(number, signal.SIG_DFL) if number != signal.SIGKILL else None,
+            os.kill(os.getpid(), number),
+        ),
+    )
 
 
 @kind(ERROR)

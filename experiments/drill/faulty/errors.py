@@ -37,6 +37,7 @@ class _Bound(Exception):
 def _raising(name: str, error):
     def act(query, call):
         raise error()
+
     act.__name__ = name
     kind(ERROR)(act)
 
@@ -60,7 +61,9 @@ for _name, _error in {
     "raises_what_has_no_words": _Mute,
     "raises_what_is_no_text": _NotText,
     "raises_what_cannot_be_pickled": lambda: _Bound(1, 2),
-    "raises_a_group": lambda: BaseExceptionGroup("many", [KeyboardInterrupt(), RuntimeError("one")]),
+    "raises_a_group": lambda: BaseExceptionGroup(
+        "many", [KeyboardInterrupt(), RuntimeError("one")]
+    ),
 }.items():
     _raising(_name, _error)
 
@@ -68,6 +71,7 @@ for _name, _error in {
 def _refusing(name: str, error):
     def act(query, call):
         raise error
+
     act.__name__ = name
     kind("unsupported")(act)
 

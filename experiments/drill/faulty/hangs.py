@@ -1,4 +1,6 @@
-"""How a method may never come back. Where the wall deadline alone ends it, it hangs at one case only."""
+"""How a method may never come back. Where the wall deadline alone ends it, it hangs at one case
+only.
+"""
 
 from __future__ import annotations
 

@@ -1,9 +1,18 @@
-"""The faulty methods as a method file: ofg-bench run mine.toml --methods experiments/drill/faulty/methods.py"""
+"""The faulty methods as a method file: ofg-bench run mine.toml --methods
+experiments/drill/faulty/methods.py
+"""
 
 from itertools import count
 
 from baselines.contract import Method, Verdict
-from experiments.drill.faulty import answers, ends, errors, hangs, leftovers, surroundings  # noqa: F401: each adds its kinds
+from experiments.drill.faulty import (  # noqa: F401: each adds its kinds
+    answers,
+    ends,
+    errors,
+    hangs,
+    leftovers,
+    surroundings,
+)
 from experiments.drill.faulty.kind import KINDS, Kind
 from ofg import QUESTIONS
 
@@ -18,9 +27,24 @@ def method(kind: Kind) -> type[Method]:
         calls = count(1)
         return lambda: kind.act(query, next(calls))
 
-    return type(kind.name, (Method,), {
-        "name": kind.name, "engine": "numpy", "imports": "numpy", "configuration": "default", "solid": True, "movers": 2, "about": True,
-        "questions": frozenset(QUESTIONS), "bodies": frozenset({"convex", "union", "mesh"}), "guarantee": "none: it is faulty", "prepare": prepare})
+    return type(
+        kind.name,
+        (Method,),
+        {
+            "__module__": __name__,  # by which the registry knows a file's own methods
+            "name": kind.name,
+            "engine": "numpy",
+            "imports": "numpy",
+            "configuration": "default",
+            "solid": True,
+            "movers": 2,
+            "about": True,
+            "questions": frozenset(QUESTIONS),
+            "bodies": frozenset({"convex", "union", "mesh"}),
+            "guarantee": "none: it is faulty",
+            "prepare": prepare,
+        },
+    )
 
 
 METHODS = [method(kind) for kind in KINDS.values()]

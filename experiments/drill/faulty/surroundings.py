@@ -25,6 +25,7 @@ def _changing(name: str, change, *statuses: str) -> None:
     def act(query, call):
         change()
         return Verdict(True)
+
     act.__name__ = name
     kind(*(statuses or (OK,)))(act)
 
@@ -56,6 +57,7 @@ def _reset_signals() -> None:
     for number in signal.valid_signals() - {signal.SIGKILL, signal.SIGSTOP}:
         signal.signal(number, signal.SIG_DFL)
 
+
 def _is_open(fd: int) -> bool:
     try:
         os.fstat(fd)
@@ -84,10 +86,22 @@ _changing("closes_sys_stdout", lambda: (sys.stdout.close(), sys.stderr.close()))
 _changing("closes_every_file", lambda: os.closerange(3, 4096), OK, ERROR)
 _changing("sets_umask", lambda: os.umask(0o777))
 _changing("stops_the_collector", gc.disable)
-_changing("patches_json", lambda: [setattr(json, n, _fail) for n in ("dump", "dumps", "load", "loads")])
-_changing("patches_pickle", lambda: [setattr(pickle, n, _fail) for n in ("dump", "dumps", "load", "loads")], OK, ERROR)
+_changing(
+    "patches_json", lambda: [setattr(json, n, _fail) for n in ("dump", "dumps", "load", "loads")]
+)
+_changing(
+    "patches_pickle",
+    lambda: [setattr(pickle, n, _fail) for n in ("dump", "dumps", "load", "loads")],
+    OK,
+    ERROR,
+)
 _changing("patches_open", lambda: setattr(builtins, "open", _fail), OK, ERROR)
-_changing("patches_time", lambda: [setattr(time, n, lambda: "soon") for n in ("time", "perf_counter", "monotonic")], OK, ERROR)
+_changing(
+    "patches_time",
+    lambda: [setattr(time, n, lambda: "soon") for n in ("time", "perf_counter", "monotonic")],
+    OK,
+    ERROR,
+)
 _changing("empties_modules", sys.modules.clear, OK, ERROR)
 _changing("recursion_limit_of_sixty", _low, OK, ERROR)
 _changing("sets_a_trace", lambda: sys.settrace(_fail), OK, ERROR)
