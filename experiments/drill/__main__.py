@@ -23,7 +23,7 @@ from . import measure
 from .command import Attempt, Bench
 from .faults import FAULTS, Fault, Missed
 from .faulty.kind import KINDS, Kind
-from .faulty.methods import METHODS  # noqa: F401: makes the kinds known
+from .faulty.methods import METHODS  # noqa: F401 - makes the kinds known
 from .outcome import FAILED, Outcome
 from .tally import Tally
 from .ward import BATCH, Ward

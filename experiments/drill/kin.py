@@ -16,8 +16,8 @@ _GONE = (psutil.NoSuchProcess, psutil.AccessDenied, psutil.ZombieProcess)
 
 
 def marked(mark: str) -> list[psutil.Process]:
-    """All living processes that carry the mark. A zombie has no environment left and is none."""
-    return [p for p in psutil.process_iter() if _environment(p).get(MARK) == mark]
+    """All living processes that carry the mark; a zombie is none."""
+    return [p for p in psutil.process_iter() if _environment(p).get(MARK) == mark and _alive(p)]
 
 
 def below(runner: int, role: str) -> list[psutil.Process]:
@@ -42,14 +42,15 @@ def below(runner: int, role: str) -> list[psutil.Process]:
 
 
 def describe(process: psutil.Process) -> str:
-    """'1234 python -c ...', for a message."""
-    return f"{process.pid} {_command(process)[:60]}".strip()
+    """The end of its command line, for a message: what is alike is told once, so without its number."""
+    return " ".join(_command(process).split()[1:])[:60] or "a process"
 
 
 def end(processes: list[psutil.Process]) -> None:
-    """kill -9, whatever state they are in."""
+    """kill -9, whatever state they are in; they are gone, or zombies, afterwards."""
     for process in processes:
         send(process, "kill")
+    psutil.wait_procs(processes, timeout=2.0)
 
 
 def send(process: psutil.Process, what: str) -> bool:
@@ -66,6 +67,13 @@ def _environment(process: psutil.Process) -> dict[str, str]:
         return process.environ()
     except (*_GONE, OSError):
         return {}
+
+
+def _alive(process: psutil.Process) -> bool:
+    try:
+        return process.status() != psutil.STATUS_ZOMBIE
+    except _GONE:
+        return False
 
 
 def _command(process: psutil.Process) -> str:

@@ -5,7 +5,7 @@ experiments/drill/faulty/methods.py
 from itertools import count
 
 from baselines.contract import Method, Verdict
-from experiments.drill.faulty import (  # noqa: F401: each adds its kinds
+from experiments.drill.faulty import (  # noqa: F401 - each adds its kinds
     answers,
     ends,
     errors,
