@@ -11,6 +11,7 @@ import argparse
 import shutil
 import sys
 import tempfile
+import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,7 +20,7 @@ from typing import Callable
 
 from experiments.progress import stage
 
-from . import measure
+from . import command, kin, measure
 from .command import Attempt, Bench
 from .faults import FAULTS, Fault, Missed
 from .faulty.kind import KINDS, Kind
@@ -58,6 +59,9 @@ def main(words: list[str] | None = None) -> int:
     except measure.Undrillable as error:
         print(error, file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print("Interrupted: nothing is left of the drill.", file=sys.stderr)
+        return 130
     finally:
         shutil.rmtree(place, ignore_errors=True)
     print(tally.text(), *tally.reasons(), sep="\n")
@@ -129,21 +133,29 @@ def _drill(chosen, names: list[str], place: Path) -> Tally:
         tries += _of_memory(ward, names) + _of_methods(ward, chosen, names)
     for name in names:
         tally.name(name, next((f.note() for f in FAULTS if f.name == name), ""))
-    with (
-        ThreadPoolExecutor(chosen.jobs) as pool,
-        stage("drill", sum(t.weight for t in tries)) as advance,
-    ):
-        running = {pool.submit(_tried, t, place / f"{i:05d}"): t for i, t in enumerate(tries)}
-        for done in as_completed(running):
-            one = running[done]
-            for what, outcome in done.result():
+    with stage("drill", sum(t.weight for t in tries)) as advance:
+        for one, found in _all(tries, place, chosen.jobs):
+            for what, outcome in found:
                 tally.add(one.fault, what, outcome)
                 if outcome and outcome.kind == FAILED:
-                    print(
-                        f"failed: {one.fault}, {what}: {outcome.why}", file=sys.stderr, flush=True
-                    )
+                    words = f"failed: {one.fault}, {what}: {outcome.why}"
+                    print(words, file=sys.stderr, flush=True)
             advance(one.weight)
     return tally
+
+
+def _all(tries: list[Try], place: Path, jobs: int):
+    """Each try with its outcomes, as they end; whoever stops listening leaves no process."""
+    with ThreadPoolExecutor(jobs) as pool:
+        running = {pool.submit(_tried, t, place / f"{i:05d}"): t for i, t in enumerate(tries)}
+        try:
+            for done in as_completed(running):
+                yield running[done], done.result()
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+            while not all(future.done() for future in running):
+                kin.end(kin.marked(command.OURS))
+                time.sleep(0.2)
 
 
 def _times(fault: Fault, tries: int) -> int:

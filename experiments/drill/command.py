@@ -16,6 +16,8 @@ from . import kin
 GRACE = 0.5  # seconds after the runner's end in which what it started must be gone
 HANG = 240.0  # seconds beyond twenty times its undisturbed duration, as limits have to run out
 
+OURS = f"{os.getpid()}-"  # with which the marks of this drill begin
+
 
 @dataclass(frozen=True)
 class Ending:
@@ -39,7 +41,7 @@ class Running:
     """A started command."""
 
     def __init__(self, words: list[str], place: Path, temporary: Path):
-        self.mark, self.begun = uuid.uuid4().hex, time.monotonic()
+        self.mark, self.begun = f"{OURS}{uuid.uuid4().hex}", time.monotonic()
         self.output = place / f"{self.mark}.log"
         environment = {
             **os.environ,

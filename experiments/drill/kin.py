@@ -16,8 +16,9 @@ _GONE = (psutil.NoSuchProcess, psutil.AccessDenied, psutil.ZombieProcess)
 
 
 def marked(mark: str) -> list[psutil.Process]:
-    """All living processes that carry the mark; a zombie is none."""
-    return [p for p in psutil.process_iter() if _environment(p).get(MARK) == mark and _alive(p)]
+    """All living processes whose mark begins so; a zombie is none."""
+    found = (p for p in psutil.process_iter() if _environment(p).get(MARK, "").startswith(mark))
+    return [p for p in found if _alive(p)]
 
 
 def below(runner: int, role: str) -> list[psutil.Process]:
@@ -42,7 +43,9 @@ def below(runner: int, role: str) -> list[psutil.Process]:
 
 
 def describe(process: psutil.Process) -> str:
-    """The end of its command line, for a message: what is alike is told once, so without its number."""
+    """The end of its command line, for a message: what is alike is told once, so without its
+    number.
+    """
     return " ".join(_command(process).split()[1:])[:60] or "a process"
 
 

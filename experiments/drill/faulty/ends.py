@@ -73,7 +73,9 @@ def allocates_without_end(query, call):
         raise MemoryError
     kept, size = [], 1 << 26
     while len(kept) * size < ENOUGH:
-        kept.append(bytearray(b"x") * size)
+        kept.append(
+            bytearray(size)
+        )  # a limit counts it; the machine does not, as no page is touched
     raise RuntimeError("nothing stopped me")
 
 

@@ -1,6 +1,8 @@
-"""A runner in miniature for the drill's tests: it works in one child process, and goes wrong in the way it is told to.
+"""A runner in miniature for the drill's tests: it works in one child process, and goes wrong in
+the way it is told to.
 
-Its first word is what it does when the child is killed: "again" works again, as it should; the others are the mutants.
+Its first word is what it does when the child is killed: "again" works again, as it should; the
+others are the mutants.
 """
 
 import os

@@ -1,4 +1,6 @@
-"""A drill that cannot fail is worthless: each way of going wrong has a mutant, and the drill must tell."""
+"""A drill that cannot fail is worthless: each way of going wrong has a mutant, and the drill must
+tell.
+"""
 
 import dataclasses
 import sys
@@ -43,13 +45,16 @@ def test_a_stop_with_a_reason_is_honest(tmp_path):
     assert outcome.kind == HONEST and "killed twice" in outcome.why
 
 
-@pytest.mark.parametrize("mutant, why", [
-    ("turns it into data", "other bytes: cases.parquet"),
-    ("leaves an orphan", "left behind"),
-    ("raises", "traceback"),
-    ("stops without a word", "without a reason"),
-    ("ends with a code of its own", "exit code 3"),
-])
+@pytest.mark.parametrize(
+    "mutant, why",
+    [
+        ("turns it into data", "other bytes: cases.parquet"),
+        ("leaves an orphan", "left behind"),
+        ("raises", "traceback"),
+        ("stops without a word", "without a reason"),
+        ("ends with a code of its own", "exit code 3"),
+    ],
+)
 def test_a_mutant_fails(mutant, why, tmp_path):
     outcome = _struck(KILL_WORKER, mutant, tmp_path)
     assert outcome.kind == FAILED and why in outcome.why
