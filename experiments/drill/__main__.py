@@ -27,11 +27,13 @@ from .faulty.kind import KINDS, Kind
 from .faulty.methods import METHODS  # noqa: F401 - makes the kinds known
 from .outcome import FAILED, Outcome
 from .tally import Tally
-from .ward import BATCH, Ward
+from .ward import Ward
 
 HERE = Path(__file__).parent
 FAULTY, MEMORY = "faulty methods", "memory"
 ALLOCATES = "faulty-allocates-without-end"
+# Kinds that share a run as long as all goes well: fewer disturb each other less while time is taken.
+BATCH, SHORT_BATCH = 8, 24
 EVERY = (*(f.name for f in FAULTS), MEMORY, FAULTY)
 DRAWS = 10  # moments drawn until a fault strikes
 FEW = 10  # tries below which a drill is short: without methods that wait for the wall deadline
@@ -198,7 +200,8 @@ def _of_methods(ward: Ward, chosen, names: list[str]) -> list[Try]:
     ]
     kinds = [k for k in kinds if not k.slow or chosen.tries >= FEW] if FAULTY in names else []
     quick = [k for k in kinds if not k.slow]
-    batches = [quick[i : i + BATCH] for i in range(0, len(quick), BATCH)] + [
+    size = BATCH if chosen.tries >= FEW else SHORT_BATCH
+    batches = [quick[i : i + size] for i in range(0, len(quick), size)] + [
         [k] for k in kinds if k.slow
     ]
     return [

@@ -36,7 +36,10 @@ def misconduct(ending: Ending) -> str:
         return "it hung"
     if TRACEBACK in ending.text:
         return f"a traceback: {ending.reason}"
-    return f"left behind: {', '.join(ending.orphans)}" if ending.orphans else ""
+    if ending.orphans:
+        left = ", ".join(ending.orphans)
+        return f"exit code {ending.code}, left behind {len(ending.orphans)}: {left}"
+    return ""
 
 
 def settle(attempt: Attempt, ending: Ending, halts: frozenset[int] = frozenset()) -> Outcome:

@@ -15,7 +15,6 @@ from .faulty.kind import ERROR, TIMEOUT, Kind
 from .outcome import EQUAL, FAILED, FILES, Outcome, misconduct
 
 METHOD_FILE = Path(__file__).parent / "faulty" / "methods.py"
-BATCH = 8  # kinds that share a run as long as all goes well
 SIZE = 64 << 20  # bytes that a run folder may have, whatever methods print
 WORDS = 1000  # characters that a row may spend on its reason
 SLOW = 900.0  # seconds more that a run may take for each kind that waits for the wall deadline
