@@ -5,6 +5,7 @@ Its first word is what it does when the child is killed: "again" works again, as
 others are the mutants.
 """
 
+import ctypes
 import os
 import signal
 import sys
@@ -26,6 +27,7 @@ def work() -> int:
     """How the child ended, as waitpid says it."""
     child = os.fork()
     if child == 0:
+        ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG: it dies with the runner
         time.sleep(0.6)
         os._exit(0)
     return os.waitpid(child, 0)[1]
@@ -51,5 +53,4 @@ if work():
         os._exit(3)
     while work():
         pass
-signal.signal(signal.SIGTERM, signal.SIG_DFL)
 finish("hit")

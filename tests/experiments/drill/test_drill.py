@@ -2,7 +2,6 @@
 tell.
 """
 
-import dataclasses
 import sys
 from pathlib import Path
 from random import Random
@@ -67,18 +66,14 @@ def test_a_hang_fails_and_leaves_nothing(tmp_path, monkeypatch):
 
 
 def test_a_refusal_of_the_same_command_fails(tmp_path):
-    strike = faults.signalled(9, {-9})
-    bench = _bench("refuses the folder", tmp_path)
-    late = dataclasses.replace(bench, seconds=bench.seconds - command.GRACE)
-    outcomes = []
-    for draw in range(20):
-        try:
-            outcomes.append(strike(Attempt(late, tmp_path / str(draw)), Random(draw)))
-        except faults.Missed:
-            continue
-        if outcomes[-1].kind == FAILED:
-            break
-    assert "refused with 1" in outcomes[-1].why or "left behind" in outcomes[-1].why
+    attempt = Attempt(_bench("refuses the folder", tmp_path), tmp_path / "one")
+    attempt.folder.mkdir()
+    outcome = settle(attempt, Ending(-9, ""), frozenset({-9}))
+    assert outcome.kind == FAILED and "it refused with 1: Error. The folder" in outcome.why
+
+
+def test_a_killed_runner_that_works_again_is_equal(tmp_path):
+    assert _struck(faults.signalled(9, {-9}), "again", tmp_path).kind == EQUAL
 
 
 def test_a_signal_that_was_not_sent_is_no_excuse(tmp_path):
