@@ -32,7 +32,7 @@ from .ward import Ward
 HERE = Path(__file__).parent
 FAULTY, MEMORY = "faulty methods", "memory"
 ALLOCATES = "faulty-allocates-without-end"
-# Kinds that share a run as long as all goes well: fewer disturb each other less while time is taken.
+# Kinds that share a run as long as all goes well: fewer disturb each other less while timed.
 BATCH, SHORT_BATCH = 8, 24
 EVERY = (*(f.name for f in FAULTS), MEMORY, FAULTY)
 DRAWS = 10  # moments drawn until a fault strikes

@@ -60,7 +60,7 @@ def test_a_mutant_fails(mutant, why, tmp_path):
 
 
 def test_a_hang_fails_and_leaves_nothing(tmp_path, monkeypatch):
-    monkeypatch.setattr(command, "HANG", 0.0)
+    monkeypatch.setattr(command.Bench, "patience", 5.0)
     outcome = _struck(KILL_WORKER, "hangs", tmp_path)
     assert outcome == Outcome(FAILED, "it hung")
 
