@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 import os
 import signal
+import time
 from dataclasses import dataclass
 from random import Random
 from typing import Callable
@@ -52,6 +53,10 @@ def signalled(number: int, halts: set[int]) -> Strike:
     def strike(attempt: Attempt, random: Random) -> Outcome:
         running = attempt.start()
         struck = running.reach(random.uniform(0.02, attempt.bench.seconds))
+        while number == signal.SIGINT and struck and not attempt.folder.exists():
+            # Python itself prints a traceback while it starts; nothing is begun before the folder
+            time.sleep(0.01)
+            struck = not running.over
         if struck:
             (os.killpg if number == signal.SIGINT else os.kill)(running.process.pid, number)
         ending = running.finish(attempt.bench.patience)
