@@ -5,7 +5,7 @@ RUN ?= results/runs/quick
 PRESET ?= quick
 NATIVE := CMakeLists.txt pyproject.toml $(shell find ofg experiments/truth -name '*.[hc]pp' -o -name CMakeLists.txt)
 
-.PHONY: help env build quick test engines native bench-ofg bench-truth crosscheck attack fuzz fuzz-boundary reproduce clean
+.PHONY: help env build quick test engines native bench-ofg bench-truth crosscheck attack drill fuzz fuzz-boundary reproduce clean
 help:
 	@echo "make quick        set up, build, run the main job in a few minutes, print its tables"
 	@echo "make test         set up, build, run every test"
@@ -16,6 +16,7 @@ help:
 	@echo "make bench-truth  certified labels a second on the standard mix"
 	@echo "make crosscheck   ask CGAL's exact kernel and dense sampling about the labels"
 	@echo "make attack       corrupt thousands of certificates: the checker must refuse them"
+	@echo "make drill        kill, stop and starve runs, and run faulty methods: nothing of it may become data (an hour or more)"
 	@echo "make fuzz         a million random queries under the address and undefined-behaviour sanitizers"
 	@echo "make fuzz-boundary  a million calls with garbage into both native modules under the same sanitizers"
 	@echo "make clean        remove the environment and the build (never a run)"
@@ -55,6 +56,10 @@ crosscheck: build
 
 attack: build
 	$(BIN)/python -m experiments.truth.attack
+
+TRIES ?= 50
+drill: build
+	$(BIN)/python -m experiments.drill --tries $(TRIES) $(if $(ONLY),--only '$(ONLY)')
 
 QUERIES ?= 1000000
 SECONDS ?= 600

@@ -37,7 +37,7 @@ COLUMNS: dict[str, dict] = {
 }
 #: Columns that older runs, and references for `compare`, lack: rows.filled knows what then holds.
 LATER = {"index", "attempt", "precision", "touching", "reason", "about", *(c for c in _SIDES if c.endswith("_b"))}
-EMPTY = {("observations.parquet", "hit"), ("timings.parquet", "build_ns")}  # where a value may be missing
+EMPTY = {("observations.parquet", "hit"), ("timings.parquet", "build_ns"), ("timings.parquet", "rounds_ns")}  # may be missing
 UNIQUE = {"cases.parquet": ["case"], "bodies.parquet": ["body"], "observations.parquet": ["case", "method"]}
 
 
@@ -76,6 +76,11 @@ def read(path: Path, name: str = "") -> pd.DataFrame:
 
 def wrong(frame: pd.DataFrame, name: str) -> str | None:
     """What is wrong with the rows of a file of COLUMNS, if anything is."""
+    return wrong_values(frame, name) or _doubled(frame, name)
+
+
+def wrong_values(frame: pd.DataFrame, name: str) -> str | None:
+    """The same of each row by itself."""
     for column, kind in COLUMNS.get(name, {}).items():
         if column not in frame:
             if column not in LATER:
@@ -85,6 +90,10 @@ def wrong(frame: pd.DataFrame, name: str) -> str | None:
         if row is not None:
             words = given.shown(repr(frame[column].iloc[row]))[:80]
             return f"row {row} has {words} in the column '{column}', which is to hold {_said(kind)}"
+    return None
+
+
+def _doubled(frame: pd.DataFrame, name: str) -> str | None:
     if name in UNIQUE and (twice := frame.duplicated(UNIQUE[name])).any():
         row = int(np.flatnonzero(twice)[0])
         return f"row {row} stands there twice ({given.shown(frame[UNIQUE[name]].iloc[row].tolist())})"
@@ -108,7 +117,7 @@ def _wrong(values: pd.Series, kind, may_be_empty: bool) -> int | None:
     if kind in (NUMBER, FINITE, WHOLE, TRUTH):
         return _first(_wrong_numbers(values, kind, may_be_empty))
     if isinstance(kind, int):
-        return _first([not _is_list(v, kind) for v in values])
+        return _first([not _is_list(v, kind, may_be_empty) for v in values])
     try:
         place, words = pd.factorize(values, use_na_sentinel=False)
     except TypeError:  # lists and the like
@@ -134,11 +143,11 @@ def _wrong_numbers(values: pd.Series, kind, may_be_empty: bool) -> np.ndarray:
     return bad if kind == TRUTH else bad | np.isinf(values.astype("Float64").to_numpy(float, na_value=np.nan))
 
 
-def _is_list(value, size: int) -> bool:
+def _is_list(value, size: int, may_be_empty: bool) -> bool:
     """A flat array of finite numbers."""
     fine = isinstance(value, (np.ndarray, list)) and (not size or len(value) == size)
     array = np.asarray(value) if fine else np.empty(0, object)
-    return array.ndim == 1 and array.dtype.kind in "iuf" and len(array) > 0 and bool(np.isfinite(array).all())
+    return array.ndim == 1 and array.dtype.kind in "iuf" and (may_be_empty or len(array) > 0) and bool(np.isfinite(array).all())
 
 
 def _said(kind) -> str:

@@ -180,7 +180,9 @@ _RENAMED = {" selection=": " nearest=", " selections=": " selection_times="}
 
 
 def _of_now(text: str) -> str:
-    """Labels of methods as they are written now."""
+    """Labels of methods as they are written now; what is no text stays as it is, for the reader to refuse."""
+    if not isinstance(text, str):
+        return text
     for then, now in _RENAMED.items():
         text = text.replace(then, now)
     return text

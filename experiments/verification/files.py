@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
-
-from .. import manifest
+from .. import given, manifest
 from ..store import Store
 from .findings import Findings
 
@@ -28,9 +26,9 @@ def _recorded(store: Store, found: Findings) -> dict[str, str] | None:
     if not store.has("manifest.json"):
         return found.note("This run has no manifest.json and records no hashes.")
     try:
-        hashes = json.loads((store.folder / "manifest.json").read_text()).get("sha256")
+        hashes = given.json_in(store.folder / "manifest.json", "The file").get("sha256")
         if hashes is None:
             return found.note("This run records no hashes.")
         return dict(hashes)
-    except (ValueError, TypeError, AttributeError, RecursionError) as error:
-        return found.refuse("manifest.json", f"it cannot be read ({type(error).__name__})")
+    except (ValueError, TypeError, AttributeError) as error:
+        return found.refuse("manifest.json", f"it cannot be read ({given.reason(error)})")

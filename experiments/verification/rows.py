@@ -9,7 +9,7 @@ import pandas as pd
 from baselines import registry
 
 from .. import config as configuration
-from .. import given, scenarios, timing
+from .. import given, record, scenarios, timing
 from ..labelling import Slot
 from ..rows import filled
 from ..store import Store
@@ -48,6 +48,10 @@ def read(store: Store, found: Findings) -> dict[str, pd.DataFrame] | None:
             frames[name] = store.read(file, checked=False)  # each wrong row is to be named, not the first alone
         except (OSError, ValueError, TypeError) as error:
             found.refuse(file, f"it cannot be read ({given.reason(error)})")
+            continue
+        if why := record.wrong_values(frames[name], file):
+            found.refuse(file, why)
+            del frames[name]
             continue
         frames[name] = filled(frames[name]) if name == "cases" else frames[name]
         if missing := [c for c in columns if c not in frames[name]]:

@@ -4,6 +4,7 @@ import pandas as pd
 import pytest
 
 from experiments.config import RunConfig
+from experiments.machine import MachineError
 from experiments.store import Store, StoreError
 
 CONFIG = RunConfig(seed=1, methods=["ofg"], scenarios=[{"name": "deep", "cases": 1}])
@@ -29,7 +30,7 @@ def test_a_full_disk_is_said_and_leaves_no_half_file(tmp_path, monkeypatch):
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(pd.DataFrame, "to_parquet", full)
-    with pytest.raises(StoreError, match="No space left on device.*resume"):
+    with pytest.raises(MachineError, match="No space left on device.*resume"):
         Store(tmp_path).write(pd.DataFrame({"x": [1]}), "parts", "a.parquet")
     assert list((tmp_path / "parts").iterdir()) == []
 

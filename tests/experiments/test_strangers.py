@@ -210,5 +210,7 @@ def test_an_open_mesh_is_refused_when_it_is_read_back(run, tmp_path):
     pd.concat([bodies, pd.DataFrame([row])]).to_parquet(here / "bodies.parquet")
     cases.assign(body_a=open_.digest).to_parquet(here / "cases.parquet")
     result = bench(tmp_path / "said", "verify", here)
+    assert result["code"] == 1 and "0 labels verified" in " ".join(result["out"].split()), result
+    result = bench(tmp_path / "again", "report", here)
     words = " ".join(result["err"].split())
     assert result["code"] == 2 and "bodies.parquet (" in words and "the mesh is open" in words, result

@@ -1,0 +1,74 @@
+"""A disk that fills up or turns read-only: a small tmpfs where it may be mounted, else the nearest
+that can be had, and said so.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import subprocess
+import tempfile
+from functools import cache
+from pathlib import Path
+from typing import Iterator
+
+
+@cache
+def mountable() -> bool:
+    """Whether this process may mount a tmpfs."""
+    with tempfile.TemporaryDirectory() as folder:
+        if _said("mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", folder):
+            return _said("umount", folder)
+    return False
+
+
+@contextlib.contextmanager
+def small(folder: Path, size: int) -> Iterator[None]:
+    """A tmpfs of `size` bytes at an empty folder. Ends with the block, whoever still holds a file
+    on it. OSError if refused.
+    """
+    _do("mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder))
+    try:
+        yield
+    finally:
+        _do("umount", "-l", str(folder))
+
+
+def resize(folder: Path, size: int) -> None:
+    """Give the tmpfs at `folder` this many bytes. OSError if refused."""
+    _do("mount", "-o", f"remount,size={size}", str(folder))
+
+
+@contextlib.contextmanager
+def read_only(folder: Path) -> Iterator[None]:
+    """Nothing below `folder` can be written within the block: by a mount of itself, or by its
+    modes where one may not mount.
+    """
+    if mountable():
+        _do("mount", "--bind", str(folder), str(folder))
+        try:
+            _do("mount", "-o", "remount,ro,bind", str(folder))
+            yield
+        finally:
+            _do("umount", "-l", str(folder))
+        return
+    places = [folder, *(p for p in folder.rglob("*") if p.is_dir() and not p.is_symlink())]
+    modes = [p.stat().st_mode for p in places]
+    try:
+        for place in places:
+            place.chmod(0o555)
+        yield
+    finally:
+        for place, mode in zip(places, modes):
+            place.chmod(mode)
+
+
+def _do(*words: str) -> None:
+    if not _said(*words):
+        raise OSError(f"'{' '.join(words)}' was refused")
+
+
+def _said(*words: str) -> bool:
+    try:
+        return subprocess.run(words, capture_output=True).returncode == 0
+    except FileNotFoundError:
+        return False
