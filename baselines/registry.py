@@ -13,6 +13,7 @@ from math import inf
 from pathlib import Path
 from types import ModuleType
 
+from . import declaration
 from .contract import Method
 
 
@@ -122,9 +123,16 @@ def _collect(module: ModuleType, found: dict[str, type[Method]]) -> None:
 
 def _add(classes, found: dict[str, type[Method]]) -> None:
     for cls in classes:
+        if wrong := declaration.fault(cls):
+            raise ValueError(f"The methods of {_file(cls)}: {wrong}")
         if cls.name in found:
             raise ValueError(f"Two methods are named '{cls.name}': {found[cls.name].__module__} and {cls.__module__}; rename one.")
         found[cls.name] = cls
+
+
+def _file(cls) -> str:
+    """Where a class was written, as its author calls it."""
+    return getattr(cls, "__module__", "an own file").removeprefix("baselines_file_")
 
 
 def _find(name: str) -> type[Method]:

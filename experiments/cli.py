@@ -144,7 +144,7 @@ def resume(run_: Run, workers: Workers = None, skip_missing: SkipMissing = False
 
 
 def _run(config: configuration.RunConfig, folder: Path, workers: int | None, skip_missing: bool) -> None:
-    from . import runner
+    from . import runner, silence
 
     _say_missing(config)
     made = runner.run(config, folder, workers, skip_missing)
@@ -158,6 +158,8 @@ def _run(config: configuration.RunConfig, folder: Path, workers: int | None, ski
     else:
         console.print(f"Tables (CSV, Markdown, LaTeX) are in {markup(folder / 'tables')}, figures (SVG, PNG) in {markup(folder / 'figures')}; every case with its "
                       f"certificate in {markup(folder / 'cases.parquet')}, every answer in {markup(folder / 'observations.parquet')}.")
+        for warning in silence.warnings(Store(folder)):
+            Console(stderr=True, width=console.width).print(f"[yellow]{markup(warning)}[/]", highlight=False)
 
 
 @app.command()

@@ -79,6 +79,12 @@ class Crew:
     def __init__(self, log: Path):
         self.log, self.workers, self.news, self.deaths = Log(log), {}, [], 0
         self.looked = monotonic()
+        self.ended: list[tuple[Worker, None]] = []  # with a fork server that died while another worker was started
+
+    @property
+    def busy(self) -> bool:
+        """Whether `wait` has somebody to wait for, or to tell of."""
+        return bool(self.workers or self.ended)
 
     def __enter__(self) -> Crew:
         processes.adopt_orphans()
@@ -104,7 +110,7 @@ class Crew:
             try:
                 return self._start(job, payload)
             except _ServerGone:
-                self._bury_all()
+                self.ended += self._bury_all()
             except OSError as error:
                 raise MachineError(f"No process could be started ({error.strerror or error}). {RESUME}") from error
 
@@ -129,6 +135,9 @@ class Crew:
 
     def wait(self) -> list[tuple[Worker, int | None]]:
         """Workers that have ended, each with its exit code: -n for signal n, None where its fork server died."""
+        if self.ended:
+            ended, self.ended = self.ended, []
+            return ended
         try:
             return self._wait()
         except _ServerGone:

@@ -16,7 +16,7 @@ from .worker import NO_CHANNEL, NO_MEMORY
 
 __all__ = ["Instead", "Loss", "MachineError", "Task", "WorkerError", "limit", "mark", "mixed", "run"]
 
-MEMORY = 4 << 30  # bytes a worker may hold
+MEMORY = 2 << 30  # bytes after which a worker is replaced; twice as many it cannot have
 TRIES = 6  # of one item that ends its process in a new way each time
 CODES = {NO_CHANNEL: "its results could not be sent", NO_MEMORY: "out of memory"}
 
@@ -103,7 +103,7 @@ def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance:
     """
     queue = deque(_Job(task, list(task.items)) for task in tasks)
     with Crew(log) as crew:
-        while queue or crew.workers:
+        while queue or crew.busy:
             while queue and _may_start(queue[0], [w.job for w in crew.workers.values()], workers):
                 job = queue.popleft()
                 crew.start(job, _payload(job, prepare, seconds, memory))

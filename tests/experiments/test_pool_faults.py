@@ -221,3 +221,22 @@ def test_nothing_is_left_of_a_runner_that_was_killed(tmp_path, stopped):
     runner.kill()
     runner.wait()
     assert _gone([p.pid for p in everything], 3.0)
+
+
+def test_the_fork_server_killed_while_a_second_worker_starts_loses_nothing(tmp_path, monkeypatch):
+    """What the first worker was at was forgotten: its results were missing, and the run said that it was unfinished."""
+    there, found, start = tmp_path / "there", {}, crew.Crew._start
+
+    def started(self, job, payload):
+        if self.workers and not self.deaths:
+            while not there.exists():
+                time.sleep(0.01)
+            crew._current.process.kill()
+            crew._current.process.wait()
+        return start(self, job, payload)
+
+    monkeypatch.setattr(crew.Crew, "_start", started)
+    tasks = [Task(_open, {2: f"wait {there}"}, [1, 2, 3], lambda r: found.update(first=r), lambda item, loss: loss),
+             Task(_open, {}, [4, 5], lambda r: found.update(second=r), lambda item, loss: loss)]
+    run(tasks, 2, 5.0, tmp_path / "log")
+    assert found == {"first": [1, 4, 9], "second": [16, 25]}
