@@ -11,13 +11,14 @@ import trimesh
 from scipy.spatial import ConvexHull, QhullError
 
 from . import checks, exact, meshfile, solid, surface, volume, winding
+from .frozen import Frozen
 from .solid import BodyError, BodyWarning
 
 __all__ = ["Body", "BodyError", "BodyWarning"]
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
+class Body(Frozen):
     """Make one with Body.convex, mesh, union, from_trimesh or from_file, not directly.
 
     kind: what the solid is. "convex": the convex hull of `vertices`; "mesh": what the closed

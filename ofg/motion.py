@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import checks
+from .frozen import Frozen
 from .pose import Pose, near_one
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class Motion(Frozen):
     """x(t) = p + R(q) c + t d + Rot(axis/|axis|, angle t) R(q) (v - c) for t in [0, 1], from a start pose (q, p).
 
     displacement: d, (3,) float64, length: of the point c over the step. axis: (3,) float64, any non-zero length, fixed in the

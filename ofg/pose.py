@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import checks
+from .frozen import Frozen
 
 
 @dataclass(frozen=True, eq=False)
-class Pose:
+class Pose(Frozen):
     """World point = N(q)/|q|^2 v + p for a body point v.
 
     quaternion: (4,) float64, (w, x, y, z), any non-zero length: the rotation it stands for is N(q)/|q|^2, which needs no
