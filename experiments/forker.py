@@ -36,14 +36,13 @@ def serve(fd: int, runner: int) -> None:
         importlib.import_module(module)
     try:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-        signal.signal(signal.SIGCONT, lambda *_: _check(runner))
+        # A handler that did more than wake would do it while what is left is cleaned up, too.
+        signal.signal(signal.SIGCONT, lambda *_: None)
         processes.signal_at_parents_death(signal.SIGCONT)  # wakes it even where it was stopped
-        _check(runner)
-        _Server(socket.socket(fileno=fd)).serve()
+        _Server(socket.socket(fileno=fd), runner).serve()
     except (_RunnerGone, OSError):
         pass
     finally:
-        signal.signal(signal.SIGCONT, signal.SIG_DFL)
         processes.kill_children()
         os._exit(0)
 
@@ -54,8 +53,8 @@ def _check(runner: int) -> None:
 
 
 class _Server:
-    def __init__(self, channel: socket.socket):
-        self.channel, self.workers = channel, set()
+    def __init__(self, channel: socket.socket, runner: int):
+        self.channel, self.runner, self.workers = channel, runner, set()
         self.wake, wakened = os.pipe()
         for end in (self.wake, wakened):
             os.set_blocking(end, False)
@@ -65,6 +64,7 @@ class _Server:
     def serve(self) -> None:
         self._say(ready=os.getpid())
         while True:
+            _check(self.runner)
             ready, _, _ = select.select([self.channel, self.wake], [], [])
             if self.wake in ready:
                 with contextlib.suppress(BlockingIOError):
