@@ -70,6 +70,8 @@ class Method(ABC):
     precision: str = "double"  #: "single" where the engine computes, or holds a body, in float32
     guarantee: ClassVar[str]  #: one line: what an answer is worth by its documentation
     time_error: float = nan  #: documented bound on |time - true time|, as a share of the step; may be a property
+    #: False: its engine may answer the same question otherwise another time, so that no answer of it proves a change
+    repeatable: ClassVar[bool] = True
     cheapest: ClassVar[Mapping[str, Any]] = {}  #: parameters of its cheapest call, which gives its floor: {"n": 1} for n substeps
     parameters: ClassVar[Mapping[str, Any]] = {}  #: name -> default; the first is the one its accuracy-speed curve runs over
     #: name -> (least, most) of a number, or the words that it takes; others take all of their kind

@@ -255,6 +255,7 @@ class _Advancement(_Continuous):
     questions = frozenset({"translation", "motion"})
     parameters = {"toc_err": 1e-4}
     allowed = {"toc_err": (1e-15, 1.0)}
+    repeatable = False  # FCL's advancement reads memory that it never wrote
     solver = "GST_INDEP"
     guarantee = "conservative advancement, time within toc_err"
 

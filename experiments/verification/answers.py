@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import secrets
 import tempfile
+from collections import Counter
 from functools import partial
 from pathlib import Path
 
@@ -20,9 +21,6 @@ from ..pool import Task, run
 from ..progress import stage
 from ..rows import cases_of
 from .findings import Findings
-
-#: methods whose engine reads memory that it never wrote: a difference is said and not refused
-UNREPEATABLE = ("fcl-advancement-convex", "fcl-advancement-mesh")
 
 
 def check(config, frames, names, count: int, seed, workers, own, found: Findings) -> None:
@@ -71,7 +69,7 @@ def _asked(config, cases, workers, own, found: Findings) -> list[dict]:
 
 def _compared(rows, recorded: pd.DataFrame, found: Findings) -> None:
     before = {(r.case, r.method): r for r in recorded.itertuples()}
-    loose = 0
+    loose = Counter()
     for row in rows:
         then = before.get((row["case"], row["method"]))
         if then is None:
@@ -82,15 +80,16 @@ def _compared(rows, recorded: pd.DataFrame, found: Findings) -> None:
         found.asked += 1
         if _said(then.status, then.hit, then.time) == _said(row["status"], row["hit"], row["time"]):
             continue
-        if row["method"].split()[0] in UNREPEATABLE:
-            loose += 1
+        name = row["method"].split()[0]
+        if not registry.methods()[name].repeatable:
+            loose[name] += 1
         else:
             found.refuse(f"{row['case']} and {row['method']}",
                          f"recorded {_word(then.status, then.hit, then.time)}, and asked again "
                          f"{_word(row['status'], row['hit'], row['time'])}")
-    if loose:
-        found.note(f"{loose} answers of {', '.join(UNREPEATABLE)} differ: FCL's advancement reads "
-                   "memory that it never wrote, so that this proves nothing.")
+    for name, n in loose.items():
+        found.note(f"{n} answers of {name} differ; its engine does not repeat itself, so that this "
+                   "proves nothing.")
     found.notes[:] = dict.fromkeys(found.notes)
 
 
