@@ -21,7 +21,7 @@ from itertools import product
 
 from ofg import Body, Pose, Query
 
-from .contract import MissingEngine, Unsupported
+from .contract import MissingEngine, Tolerance, Unsupported
 from .pieces import Decomposed
 from .sampling import Discrete, Substeps
 from .units import Normalised
@@ -37,7 +37,7 @@ class Bullet(Discrete):
     configuration = "default"
     bodies = frozenset({"convex", "union"})
     solid = True
-    margin = 2 * MARGIN
+    tolerance = Tolerance(2 * MARGIN, sides="alarms")
     guarantee = "GJK/EPA in doubles on hulls grown by 0.001 each"
     places_b = True
     threshold = 0.0  #: a reported distance below this is an overlap
@@ -67,7 +67,7 @@ class BulletNoMargin(Normalised, Bullet):
 
     name = "bullet-no-margin"
     configuration = "best effort"
-    margin = 0.0
+    tolerance = Tolerance()
     threshold = -2 * MARGIN
     guarantee = "GJK/EPA in doubles on hulls grown by 0.001 each, the growth subtracted from the distance"
 

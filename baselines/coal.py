@@ -15,7 +15,7 @@ import numpy as np
 
 from ofg import Body, Pose, Query
 
-from .contract import MissingEngine
+from .contract import MissingEngine, Tolerance
 from .sampling import Discrete, Substeps
 from .units import Normalised
 
@@ -37,6 +37,7 @@ class CoalConvex(Discrete):
     bodies = frozenset({"convex", "union"})
     solid = True
     places_b = True
+    tolerance = Tolerance(1e-6)  # gjk_tolerance and epa_tolerance of a request as it comes
     guarantee = "GJK/EPA in doubles, tolerance 1e-6"
 
     def shapes(self, coal, body: Body) -> list:
@@ -68,6 +69,10 @@ class CoalConvexExact(Normalised, CoalConvex):
     name = "coal-convex-exact"
     configuration = "best effort"
     guarantee = "GJK/EPA in doubles, tolerance 1e-12"
+
+    @property
+    def tolerance(self) -> Tolerance:
+        return Tolerance(relative=1e-12 / self.length)
 
     def ask_pair(self, coal, a, b) -> Callable:
         collide, result = coal.ComputeCollision(a, b), coal.CollisionResult()

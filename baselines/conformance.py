@@ -19,7 +19,7 @@ import numpy as np
 
 from ofg import QUESTIONS, Body, Motion, Pose, Query
 
-from .contract import Method, Unsupported, Verdict
+from .contract import Method, Tolerance, Unsupported, Verdict
 from .frames import product
 
 CONFIGURATIONS = ("default", "best effort", "alternative", "article")
@@ -167,8 +167,8 @@ def declaration(method: Method) -> Iterator[str]:
         yield "solid must be True or False"
     if method.precision not in ("double", "single"):
         yield f"precision '{method.precision}' must be double or single"
-    if not method.margin >= 0:
-        yield f"margin {method.margin} must be a length"
+    if not isinstance(method.tolerance, Tolerance):
+        yield f"tolerance {method.tolerance!r} must be a baselines.contract.Tolerance"
     if any(" " in str(v) or "," in str(v) for v in method.parameters.values()):
         yield "a parameter's value holds a space or a comma, so the label cannot be read back"
 
@@ -206,12 +206,13 @@ def notch(method: Method) -> Iterator[str]:
                 yield f"{kind}: a cube {'across the arm' if hit else 'in the notch'} of an L is called {'clear' if hit else 'a hit'}"
 
 
-def beyond_margin(method: Method) -> Iterator[str]:
-    """Cubes apart by the declared margin and 0.002 more are clear."""
-    gap = method.margin + 0.002
+def beyond_tolerance(method: Method) -> Iterator[str]:
+    """Cubes apart by the declared tolerance and 0.002 more are clear."""
+    allowed = float(method.tolerance.reach(body("convex").size, 0.0)) if method.tolerance.covers("alarms") else 0.0
+    gap = allowed + 0.002
     for kind in kinds(method):
         if "overlap" in method.questions and asked(method, Query("overlap", body(kind), body(kind), Pose(position=(2 + gap, 0.3, 0.2)))).hit:
-            yield f"{kind}: cubes {gap:g} apart are called a hit, but the declared margin is {method.margin:g}"
+            yield f"{kind}: cubes {gap:g} apart are called a hit, but the declared tolerance is {method.tolerance}"
 
 
 def head_on(method: Method) -> Iterator[str]:
@@ -373,7 +374,7 @@ PROPERTIES: list[tuple[str, Callable[[Method], Iterator[str]]]] = [
     ("far apart is clear, deep overlap is a hit", far_and_near),
     ("a contained body is seen by solid methods alone", contained),
     ("the notch of a concave body is empty", notch),
-    ("clear beyond its margin", beyond_margin),
+    ("clear beyond its tolerance", beyond_tolerance),
     ("meets a head-on sweep at its time", head_on),
     ("gives the same answer again", same_again),
     ("does not depend on the frame", moved_together),

@@ -14,8 +14,9 @@ from ofg import Query
 from .errors import MissingEngine, Unsupported
 from .frames import stated
 from .parameter import Allowed, fault
+from .tolerance import NONE, Tolerance
 
-__all__ = ["Method", "MissingEngine", "Unsupported", "Verdict", "checked"]
+__all__ = ["Method", "MissingEngine", "Tolerance", "Unsupported", "Verdict", "checked"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +67,7 @@ class Method(ABC):
     #: True: it reads Motion.about. False: a body that turns about a point gets that point as its origin
     about: ClassVar[bool] = False
     gives_time: ClassVar[bool] = False  #: returns a time of impact for sweeps
-    margin: ClassVar[float] = 0.0  #: documented distance (length) below which a clear pair may be called a hit
+    tolerance: Tolerance = NONE  #: how far from the truth an answer may be by its documentation; may be a property
     precision: str = "double"  #: "single" where the engine computes, or holds a body, in float32
     guarantee: ClassVar[str]  #: one line: what an answer is worth by its documentation
     time_error: float = nan  #: documented bound on |time - true time|, as a share of the step; may be a property

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from ofg import QUESTIONS
 
-from .contract import Method
+from .contract import Method, Tolerance
 
 WORDS = ("name", "engine", "imports", "configuration", "guarantee")
 SETS = {"questions": frozenset(QUESTIONS), "bodies": frozenset({"convex", "union", "mesh"})}
@@ -35,5 +35,9 @@ def _wrong(cls: type[Method]):
             yield name, f"is {value!r}; it must be a set of {', '.join(sorted(known))}"
     if not isinstance(cls.solid, bool):
         yield "solid", f"is {cls.solid!r}; it must be True (tests solids) or False (tests surfaces)"
+    if hasattr(cls, "margin"):
+        yield "margin", "is not read any more; declare tolerance = Tolerance(length=...), of baselines.contract"
+    if not isinstance(cls.tolerance, (Tolerance, property)):
+        yield "tolerance", f"is {cls.tolerance!r}; it must be a Tolerance, of baselines.contract"
     if not isinstance(cls.parameters, Mapping):
         yield "parameters", f"is {cls.parameters!r}; it must be a dict of defaults by name"

@@ -13,7 +13,7 @@ import numpy as np
 
 from ofg import Body, Query
 
-from .contract import MissingEngine
+from .contract import MissingEngine, Tolerance
 from .sampling import Discrete, Substeps
 from .units import Normalised
 
@@ -34,6 +34,7 @@ class Drake(Discrete):
     bodies = frozenset({"convex", "union"})
     solid = True
     places_b = True
+    tolerance = Tolerance(1e-6)  # that of FCL's libccd, which it calls
     guarantee = "GJK (FCL with libccd) in doubles"
 
     def ask(self, query_object, ids_a, ids_b) -> bool:

@@ -23,13 +23,14 @@ import numpy as np
 
 from ofg import Body, Pose, Query
 
-from .contract import Method, MissingEngine, Unsupported, Verdict
+from .contract import Method, MissingEngine, Tolerance, Unsupported, Verdict
 from .sampling import Discrete, Substeps
 from .units import Normalised
 
 #: Bytes of FCL 0.7's InterpMotion, the object of CCDM_LINEAR: of all sizes from 24 to 2024, only stale blocks of this one change answers.
 #: valgrind names no other memory that conservative advancement reads unset, on the heap or the stack.
 MOTION_BYTES = 504
+GJK = 1e-6  #: length: collision_tolerance and distance_tolerance of both of FCL's GJK solvers, by their headers
 
 
 def _fcl():
@@ -101,7 +102,8 @@ class _Overlap(Discrete):
 class FclConvex(_Convex, _Overlap):
     name = "fcl-convex"
     configuration = "default"
-    guarantee = "GJK (libccd) to 1e-6 of its own units by the documentation; no error found down to 1e-12"
+    tolerance = Tolerance(GJK)
+    guarantee = "GJK (libccd) to 1e-6 of its own units by the documentation"
 
 
 class FclConvexExact(Normalised, FclConvex):
@@ -110,7 +112,7 @@ class FclConvexExact(Normalised, FclConvex):
     length = 32.0
     name = "fcl-convex-exact"
     configuration = "best effort"
-    guarantee = "GJK (libccd) in doubles, bodies of radius 32 at the origin; no error found"
+    guarantee = "GJK (libccd) in doubles, bodies of radius 32 at the origin"
 
 
 class FclConvexExactSubsteps(Substeps, FclConvexExact):
@@ -234,12 +236,14 @@ class _DefaultRequest(_Continuous):
 class FclCcdMesh(_Mesh, _DefaultRequest):
     # Cubes of 2 passing through each other, head-on and turned: 37 of 40 missed. Known upstream (fcl 555, python-fcl 38).
     name = "fcl-ccd-mesh"
+    tolerance = Tolerance(step=1e-4)
     guarantee = "conservative advancement, time within toc_err = 1e-4; CCDM_TRANS ignores rotation"
 
 
 class FclCcdConvex(_Convex, _DefaultRequest):
     # 6 of 40 cube pass-throughs missed with libccd, none with GST_INDEP.
     name = "fcl-ccd-convex"
+    tolerance = Tolerance(GJK, step=1e-4)
     guarantee = "conservative advancement, time within toc_err = 1e-4; CCDM_TRANS ignores rotation"
 
 
@@ -258,6 +262,10 @@ class _Advancement(_Continuous):
     repeatable = False  # FCL's advancement reads memory that it never wrote
     solver = "GST_INDEP"
     guarantee = "conservative advancement, time within toc_err"
+
+    @property
+    def tolerance(self) -> Tolerance:
+        return Tolerance(GJK, step=self.parameters["toc_err"])
 
     def limits(self) -> dict:
         return {"num_max_iterations": 1000, "toc_err": self.parameters["toc_err"]}

@@ -15,7 +15,7 @@ import numpy as np
 
 from ofg import Pose, Query
 
-from .contract import Method, MissingEngine, Verdict
+from .contract import Method, MissingEngine, Tolerance, Verdict
 from .sampling import Discrete, Substeps
 
 
@@ -63,6 +63,7 @@ class IpctkCcd(Method):
     solid = False
     movers, about = 2, True
     gives_time = True
+    tolerance = Tolerance(1e-6, sides="alarms")  # of its inclusion of the distance
     guarantee = "never misses on straight vertex paths, never late (interval inclusion, tolerance 1e-6); surfaces only"
     parameters = {"n": 1, "max_iterations": 10_000_000}
     allowed = {"n": (1, inf), "max_iterations": (1, 2**31 - 1)}

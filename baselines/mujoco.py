@@ -15,7 +15,7 @@ import numpy as np
 
 from ofg import Body, Pose, Query
 
-from .contract import Method, MissingEngine, Unsupported, Verdict
+from .contract import Method, MissingEngine, Tolerance, Unsupported, Verdict
 from .pieces import Decomposed
 from .sampling import Discrete, Substeps
 from .units import Normalised, normalised
@@ -41,6 +41,7 @@ class Mujoco(Discrete):
     bodies = frozenset({"convex", "union"})
     solid = True
     places_b = True
+    tolerance = Tolerance(1e-6)  # ccd_tolerance
     guarantee = "GJK/EPA in doubles on vertices stored as float32; ccd_tolerance 1e-6, 35 iterations"
 
     def options(self, mujoco, spec) -> None:
@@ -76,6 +77,10 @@ class MujocoExact(Normalised, Mujoco):
     name = "mujoco-exact"
     configuration = "best effort"
     guarantee = "GJK/EPA in doubles on vertices stored as float32; ccd_tolerance 1e-12, 1000 iterations"
+
+    @property
+    def tolerance(self) -> Tolerance:
+        return Tolerance(relative=1e-12 / self.length)
 
     def options(self, mujoco, spec) -> None:
         spec.option.ccd_tolerance = 1e-12
@@ -130,6 +135,7 @@ class MujocoSpeculative(Method):
     bodies = frozenset({"convex", "union"})
     solid = True
     gives_time = True
+    tolerance = Tolerance(step=0.02, sides="alarms")  # of the start distance, which the path is no shorter than
     guarantee = "conservative advancement to 2 % of the start distance: hits closer than that are called early; slow movers at the end only"
 
     IMPEDANCE = 0.9999  # the largest MuJoCo takes

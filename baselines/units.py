@@ -14,13 +14,19 @@ from typing import Callable, ClassVar
 
 from ofg import Body, Pose, Query
 
-from .contract import Verdict
+from .contract import Tolerance, Verdict
 
 
 class Normalised:
-    """Put this before a method: `class FclExact(Normalised, FclConvex)`. Its margin is in the method's units, not the query's."""
+    """Put this before a method: `class FclExact(Normalised, FclConvex)`. Its tolerance in length
+    is in its own units: at most so large a share of the size of the larger body, which is what is declared."""
 
     length: ClassVar[float] = 1.0  #: the radius that the smaller body gets, within a factor of sqrt(2)
+
+    @property
+    def tolerance(self) -> Tolerance:
+        own = super().tolerance
+        return replace(own, length=0.0, relative=own.relative + own.length / self.length)
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)

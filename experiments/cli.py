@@ -170,13 +170,15 @@ def tables(
     trust: Trust = False,
 ) -> None:
     """Build the tables of a finished run anew from its rows, and print them."""
-    from . import readme
+    from . import outcome, readme
     from . import tables as made
 
     with reading(run_):
         store = opened(run_, trust)
         found = list(made.build(store))
         made.save(store, found)
+        if store.has("observations.parquet"):
+            outcome.save(store, outcome.outcomes(store))
     for table in found:
         if only in table.name:
             _print_table(table)

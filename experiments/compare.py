@@ -52,7 +52,7 @@ class Difference:
 
 def compare(first: Store, second: Store) -> Difference:
     """Raises StoreError for a run that is not finished."""
-    a, b = (metrics.outcomes(store).drop(columns=list(INPUT), errors="ignore") for store in (first, second))
+    a, b = (metrics.judge(store.read("observations.parquet"), store.read("cases.parquet")).drop(columns=list(INPUT), errors="ignore") for store in (first, second))
     remade = _remade(first, second)
     both = a[~a.case.isin(remade)].merge(b, on=["case", "method"], suffixes=("_a", "_b"))
     labels = _labels(first, second)
@@ -130,10 +130,10 @@ def _said(row: dict, side: str) -> str:
 def _rates(both: pd.DataFrame) -> pd.DataFrame:
     sides = []
     for s in "ab":
-        names = ("outcome", "status", "label", "can_tunnel", "tunnelled", "question", "hit")
+        names = ("outcome", "wrong", "within", "status", "label", "can_tunnel", "tunnelled", "question", "hit")
         columns = {f"{c}_{s}": c for c in names}
         sides.append(metrics.rates(both.rename(columns=columns), ["question", "method"]))
-    counts = ["answered", "hits", "misses", "clears", "false_alarms", "conservative", "touching",
+    counts = ["answered", "hits", "misses", "clears", "false_alarms", "within", "contained", "touching",
               "tunnelled"]
     table = sides[0].merge(sides[1], on=["question", "method"], suffixes=("_before", "_after"))
     moved = (table[[f"{c}_before" for c in counts]].to_numpy() != table[[f"{c}_after" for c in counts]].to_numpy()).any(axis=1)

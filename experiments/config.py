@@ -47,7 +47,7 @@ class TimingChoice(_Strict):
     reference: str = Field(default="", description="method that ratios are taken to [the run's first]")
 
 
-Value = Literal["misses", "false alarms", "wrong", "tunnelled", "answered", "time error", "latest", "earliest",
+Value = Literal["misses", "false alarms", "wrong", "beyond", "tunnelled", "answered", "time error", "latest", "earliest",
                 "net time", "gross time", "build time", "ratio"]
 
 
@@ -61,6 +61,8 @@ class TableChoice(_Strict):
     columns: str = Field(default="level", description="level, scenario, question, situation, faces (ranges), band (signed gap over size), or a tag of the scenarios")
     scenarios: tuple[str, ...] = Field(default=(), description="only cases of these [all]")
     question: str = Field(default="", description="only cases of this question [all]")
+    situation: Literal["", "deep", "near", "apart", "hit", "clear"] = Field(
+        default="", description="only cases of this situation; a table of times without one is made for each situation")
     headline: bool = Field(default=True, description="printed at the end of the run")
 
 

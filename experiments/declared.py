@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from baselines import registry
 from baselines.contract import Method, Unsupported
+from baselines.tolerance import NONE, Tolerance
 
 from . import scenarios
 from .config import RunConfig
@@ -22,6 +24,15 @@ class _Recorded(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, str_max_length=1000)
 
 
+class ToleranceFacts(_Recorded):
+    """The fields of baselines.tolerance.Tolerance."""
+
+    length: float = Field(ge=0)
+    relative: float = Field(ge=0)
+    step: float = Field(ge=0)
+    sides: Literal["both", "alarms", "misses"]
+
+
 class MethodFacts(_Recorded):
     """Class attributes of a Method that tables and pages show or reckon with."""
 
@@ -30,7 +41,7 @@ class MethodFacts(_Recorded):
     questions: list[Question]
     bodies: list[Literal["convex", "mesh", "union"]]
     solid: bool
-    margin: float = Field(ge=0)
+    tolerance: ToleranceFacts
     precision: Literal["double", "single"]
     guarantee: str
     parameters: dict[str, bool | int | float | str]
@@ -65,10 +76,15 @@ def of(config: RunConfig) -> dict:
 
 def _method(cls) -> MethodFacts:
     said = {name: getattr(cls, name) for name in MethodFacts.model_fields}
-    said.update(questions=sorted(cls.questions), bodies=sorted(cls.bodies), margin=float(cls.margin), parameters=dict(cls.parameters))
+    said.update(questions=sorted(cls.questions), bodies=sorted(cls.bodies), tolerance=_tolerance(cls), parameters=dict(cls.parameters))
     if not isinstance(said["precision"], str):  # a property, that its parameters decide
         said["precision"] = "double"
     return MethodFacts.model_validate(said)
+
+
+def _tolerance(cls) -> dict:
+    """As it stands in the class; none where its parameters decide it."""
+    return asdict(cls.tolerance if isinstance(cls.tolerance, Tolerance) else NONE)
 
 
 def know(store: Store) -> list[str]:
@@ -98,7 +114,7 @@ def _notices(config: RunConfig, known) -> list[str]:
         return []
     said = [f"The run names Python files of its own ({files}); they are not run. --trust runs them."]
     unknown = dict.fromkeys(spec.split()[0] for spec in config.asked if spec.split() and spec.split()[0] not in known)
-    said += [f"Method '{name}' is not known here; its declaration is unknown (its margin is taken as 0); pass --trust to load {files}."
+    said += [f"Method '{name}' is not known here; its declaration is unknown (its tolerance is taken as none); pass --trust to load {files}."
              for name in unknown]
     return said
 
@@ -106,6 +122,7 @@ def _notices(config: RunConfig, known) -> list[str]:
 def _stand_in(name: str, facts: MethodFacts) -> type[Method]:
     """A method that says what was recorded of it, and answers nothing."""
     said = facts.model_dump()
+    said["tolerance"] = Tolerance(**said["tolerance"])
     said.update(name=name, imports="", questions=frozenset(facts.questions), bodies=frozenset(facts.bodies), prepare=_unasked,
                 __module__=MODULE)
     return type(name, (Method,), said)

@@ -14,9 +14,9 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from baselines import registry
 
-from . import metrics
+from . import metrics, views
 from .store import Store
-from .timing import SIZES, size_of
+from .timing import SITUATIONS, SIZES, size_of
 
 # Okabe and Ito's palette and three of Paul Tol's, one for each engine there is, told apart by every common colour vision; markers repeat the distinction in grey print.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999933", "#882255", "#DDCC77")
@@ -26,7 +26,7 @@ LEAST = 20  # certified cases without which a panel says nothing
 
 
 def accuracy_speed(store: Store) -> None:
-    """One figure per question, a panel per range of faces, as SVG and PNG in figures/."""
+    """One figure per question, panels by range of faces and situation, as SVG and PNG in figures/."""
     points = joined(store)
     for question, part in points.groupby("question", sort=False):
         figure = draw(part, question)
@@ -43,20 +43,30 @@ def drawn(figure: plt.Figure, suffix: str) -> bytes:
 
 
 def joined(store: Store) -> pd.DataFrame:
-    """A row per question, range of faces and method: net time (us), wrong rate with its interval, whether on the Pareto front."""
+    """A row per question, range of faces, situation and method: net time (us), wrong rate with its interval, whether on the front.
+
+    Rates are over the cases of a question and range of faces that all methods answered which answer at least half (shared); those
+    of other methods are over what they answered, and they are on no front.
+    """
     found = metrics.outcomes(store)
     found = found.assign(faces=size_of(found.faces))
-    rates = metrics.rates(found, ["question", "faces", "method"])
-    rates["wrong"], rates["judged"] = rates.misses + rates.false_alarms, rates.hits + rates.clears
-    points = metrics.costs(store, ("question", "faces")).drop(columns=["low", "high"]).merge(rates[rates.judged > 0], on=["question", "faces", "method"])
-    points["rate"] = points.wrong / points.judged
-    intervals = [metrics.wilson(w, n) for w, n in zip(points.wrong, points.judged)]
-    points["low"], points["high"] = zip(*intervals) if intervals else ((), ())
-    points["us"] = np.maximum(points.net, GRAIN) / 1e3
-    points = points[points.groupby(["question", "faces"]).judged.transform("max") >= LEAST].assign(front=False)
-    for _, group in points[points.answered == points.asked].groupby(["question", "faces"], sort=False):
+    rates = pd.concat([_rates(part).assign(question=question, faces=faces)
+                       for (question, faces), part in found.groupby(["question", "faces"], sort=False)], ignore_index=True)
+    times = metrics.costs(store).drop(columns=["low", "high"])
+    points = times.merge(rates[rates.judged > 0], on=["question", "faces", "method"])
+    points = points.assign(rate=points.wrong_rate, low=points.wrong_low, high=points.wrong_high, us=np.maximum(points.net, GRAIN) / 1e3)
+    panels = ["question", "faces", "situation"]
+    points = points[points.groupby(panels).judged.transform("max") >= LEAST].assign(front=False)
+    for _, group in points[points.shared].groupby(panels, sort=False):
         points.loc[pareto(group.us, group.rate), "front"] = True
     return points
+
+
+def _rates(part: pd.DataFrame) -> pd.DataFrame:
+    part = part[~part.detail.str.startswith("does not answer", na=False)]
+    same, left_out = views.common(part)
+    return pd.concat([metrics.rates(same, ["method"]).assign(shared=True),
+                      metrics.rates(part[part.method.isin(left_out)], ["method"]).assign(shared=False)], ignore_index=True)
 
 
 def pareto(cost: pd.Series, loss: pd.Series) -> list:
@@ -67,19 +77,29 @@ def pareto(cost: pd.Series, loss: pd.Series) -> list:
 
 
 def draw(part: pd.DataFrame, question: str) -> plt.Figure:
-    panels = [name for _, name in SIZES if name in set(part.faces)]
-    figure, axes = plt.subplots(1, len(panels), figsize=(3.3 * len(panels) + 1.2, 3.9), sharey=True, squeeze=False, layout="constrained")
+    """Columns of panels by faces, rows by situation."""
+    sizes = [name for _, name in SIZES if name in set(part.faces)]
+    rows = [name for name in SITUATIONS if name in set(part.situation)]
+    figure, axes = plt.subplots(len(rows), len(sizes), figsize=(3.0 * len(sizes) + 1.2, 2.7 * len(rows) + 0.6), sharex="col",
+                                sharey=True, squeeze=False, layout="constrained")
     styles = _styles(part.method)
-    for axis, faces in zip(axes[0], panels):
-        _panel(axis, part[part.faces == faces], styles)
+    for line, situation in zip(axes, rows):
+        for axis, faces in zip(line, sizes):
+            inside = part[(part.faces == faces) & (part.situation == situation)]
+            if len(inside):
+                _panel(axis, inside, styles)
+            else:
+                axis.axis("off")
+        line[0].set_ylabel(f"{situation}: wrong answers, %", fontsize=8)
+    for axis, faces in zip(axes[0], sizes):
         axis.set_title(f"{faces} faces", fontsize=9)
+    for axis in axes[-1]:
         axis.set_xlabel("net time per query, µs", fontsize=8)
-    axes[0, 0].set_ylabel("wrong answers, % of certified cases", fontsize=8)
     handles = [plt.Line2D([], [], color=c, marker=m, ms=5, lw=1, label=name) for name, (c, m) in styles.items()]
-    handles.append(plt.Line2D([], [], color="0.4", lw=4, alpha=0.35, label="Pareto front (of those that answer all)"))
-    handles.append(plt.Line2D([], [], color="0.4", marker="o", mfc="white", ls="", ms=5, label="hollow: answers only part of the cases"))
+    handles.append(plt.Line2D([], [], color="0.4", lw=4, alpha=0.35, label="Pareto front, on common cases"))
+    handles.append(plt.Line2D([], [], color="0.4", marker="o", mfc="white", ls="", ms=5, label="hollow: answers less than half,\nrate over what it answers"))
     figure.legend(handles=handles, loc="outside right upper", fontsize=7, frameon=False)
-    figure.suptitle(f"Accuracy against speed: {question}", fontsize=10)
+    figure.suptitle(f"Accuracy against speed: {question}, by situation", fontsize=10)
     return figure
 
 
@@ -90,7 +110,7 @@ def _panel(axis, part: pd.DataFrame, styles) -> None:
         colour, marker = styles[name]
         axis.plot(group.us, 100 * group.rate, color=colour, lw=1, zorder=2)
         axis.errorbar(group.us, 100 * group.rate, yerr=100 * np.abs([group.rate - group.low, group.high - group.rate]), fmt="none", ecolor=colour, elinewidth=0.5, alpha=0.6, zorder=2)
-        whole = group.answered == group.asked
+        whole = group.shared
         axis.plot(group.us[whole], 100 * group.rate[whole], color=colour, marker=marker, ms=5, ls="", zorder=3)
         axis.plot(group.us[~whole], 100 * group.rate[~whole], color=colour, marker=marker, ms=5, ls="", mfc="white", zorder=3)
         for row in group.itertuples():

@@ -74,7 +74,7 @@ def _processor() -> str:
 
 
 #: what is made from the rows at any time, or tells of the machine: not data of the run
-DERIVED = {"manifest.json", "report.html", "workers.log", "tables", "figures", "parts"}
+DERIVED = {"manifest.json", "report.html", "outcomes.parquet", "workers.log", "tables", "figures", "parts"}
 
 
 def hashes(folder: Path) -> dict[str, str]:

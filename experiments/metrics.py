@@ -6,74 +6,14 @@ import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
-from baselines import registry
-
-from .rows import filled
-from .store import Store, StoreError
+from .outcome import JUDGED, judge, out_of_their_depth, outcomes
+from .store import Store
 from .timing import FLOOR, LOST, PROBE
 
-OUTCOMES = ("right", "miss", "false alarm", "conservative", "touching", "no label", "unsupported",
-            "error", "timeout")
 
-
-def outcomes(store: Store) -> pd.DataFrame:
-    """One row per case and method: the observation, the truth, and what came of it.
-
-    outcome: "right"; "miss" (certified hit, answered clear); "false alarm" (certified clear, answered hit); "conservative" (a false
-    alarm at a certified clearance within the method's documented margin); "touching" (the closed
-    bodies share a point and no more, where neither answer is wrong: in no rate); "no label" (truth uncertain); or the status where it
-    is not ok. tunnelled: a miss of a sweep whose start and end are certified clear. error: signed time of impact error, as a share
-    of the step: beyond the certified bracket, positive late, negative early, 0 inside; NaN where there is none.
-    """
-    said, cases = store.read("observations.parquet"), store.read("cases.parquet")
-    unknown = said.case[~said.case.isin(cases.case)]
-    if len(unknown):
-        raise StoreError(f"{store.folder / 'observations.parquet'} has answers to the case '{unknown.iloc[0]}', which is not in cases.parquet. "
-                         "The run was changed or is damaged; take it anew from where it was made, or make it again.")
-    return judge(said, cases)
-
-
-def judge(observations: pd.DataFrame, cases: pd.DataFrame) -> pd.DataFrame:
-    """`outcomes` for rows of observations.parquet and of cases.parquet."""
-    cases = filled(cases)
-    cases = cases.assign(touching=cases.touching.astype(bool))
-    table = observations.merge(cases.drop(columns=["certificate"]), on="case", how="left", validate="many_to_one")
-    answered, hit = table.status == "ok", table.hit.fillna(False).astype(bool)
-    margin = table.method.map(margins(table.method.unique()))
-    clear, meets = table.label == "clear", table.label == "hit"
-    alarm = answered & clear & hit
-    table["outcome"] = np.select(
-        [~answered, table.label == "uncertain", table.touching, meets & ~hit, alarm & (table.gap <= margin),
-         alarm],
-        [table.status, "no label", "touching", "miss", "conservative", "false alarm"], "right")
-    sweep = table.question != "overlap"
-    table["can_tunnel"] = answered & sweep & meets & (table.start == "clear") & (table.end == "clear")
-    table["tunnelled"] = table.can_tunnel & ~hit
-    late, early = (table.time - table.t_hi).clip(lower=0), (table.time - table.t_lo).clip(upper=0)
-    timed = answered & sweep & meets & hit & table.time.notna() & (table.start == "clear")
-    table["error"] = (late + early).where(timed)
-    table["relative_gap"] = table.gap / table["size"]
-    return table
-
-
-def out_of_their_depth(table: pd.DataFrame) -> set[str]:
-    """Labels of single-precision methods that answered cases given in double precision."""
-    asked = table[(table.precision == "float64") & (table.status == "ok")].method.unique()
-    return {label for label in asked if _precision(label) == "single"}
-
-
-def _precision(label: str) -> str:
-    """As the method declares it; "double" for one whose file is not there any more."""
-    try:
-        return registry.make(label)[0].precision
-    except (ValueError, ImportError):
-        return "double"
-
-
-def margins(labels) -> dict[str, float]:
-    """The documented margin (length) of each method label; 0 for one whose file is not there any more."""
-    known = registry.methods()
-    return {label: float(getattr(known.get(label.split()[0]), "margin", 0.0)) for label in labels}
+#: count, total and the name of their rate
+RATES = (("misses", "hits", "miss"), ("false_alarms", "clears", "alarm"), ("tunnelled", "can_tunnel", "tunnel"),
+         ("wrong", "judged", "wrong"), ("beyond", "judged", "beyond"))
 
 
 def wilson(count: int, total: int) -> tuple[float, float]:
@@ -87,20 +27,23 @@ def wilson(count: int, total: int) -> tuple[float, float]:
 def rates(table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
     """Counts per group of `by`, in order of first appearance: asked, answered, hits and misses, clears and false alarms, tunnelling.
 
-    Rates are over the certified cases that the method answered; *_low, *_high are Wilson intervals.
+    judged: the certified cases that the method answered, touching and contained ones left out. wrong: misses and false alarms of
+    them. beyond: those of the wrong ones that are beyond the method's own tolerance. Rates are over the judged;
+    *_low, *_high are Wilson intervals.
     """
-    labelled = table.outcome.isin(["right", "miss", "false alarm", "conservative"])
+    judged = table.outcome.isin(JUDGED)
     touching = table.outcome == "touching"
     flags = pd.DataFrame({
         "asked": 1, "answered": table.status == "ok", "unsupported": table.status == "unsupported",
         "failed": table.status.isin(["error", "timeout"]), "uncertain": table.label == "uncertain",
-        "touching": touching, "touching_hits": touching & table.hit.fillna(False).astype(bool),
-        "hits": labelled & (table.label == "hit"), "misses": table.outcome == "miss",
-        "clears": labelled & (table.label == "clear"), "false_alarms": table.outcome == "false alarm",
-        "conservative": table.outcome == "conservative", "can_tunnel": table.can_tunnel, "tunnelled": table.tunnelled,
+        "touching": touching, "touching_hits": touching & table.hit.fillna(False).astype(bool), "contained": table.outcome == "contained",
+        "hits": judged & (table.label == "hit"), "misses": table.outcome == "miss",
+        "clears": judged & (table.label == "clear"), "false_alarms": table.outcome == "false alarm",
+        "judged": judged, "wrong": table.wrong, "within": table.within, "can_tunnel": table.can_tunnel, "tunnelled": table.tunnelled,
     }).astype(int)
     counts = flags.groupby([table[name] for name in by], sort=False).sum().reset_index()
-    for count, total, name in (("misses", "hits", "miss"), ("false_alarms", "clears", "alarm"), ("tunnelled", "can_tunnel", "tunnel")):
+    counts["beyond"] = counts.wrong - counts.within
+    for count, total, name in RATES:
         counts[f"{name}_rate"] = counts[count] / counts[total].where(counts[total] > 0)
         intervals = [wilson(c, t) for c, t in zip(counts[count], counts[total])]
         counts[f"{name}_low"], counts[f"{name}_high"] = zip(*intervals) if intervals else ((), ())

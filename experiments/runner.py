@@ -14,7 +14,7 @@ import pandas as pd
 from baselines import registry
 from ofg import decomposition, piecefile
 
-from . import answering, curves, declared, entries, figures, labelling, manifest, origin, ownfile, progress, scenarios, tables, timing
+from . import answering, curves, declared, entries, figures, labelling, manifest, origin, outcome, ownfile, progress, scenarios, tables, timing
 from .config import ConfigError, RunConfig
 from .progress import say
 from .report import report as html_report
@@ -84,6 +84,7 @@ def report(store: Store) -> list[tables.Table]:
     if store.has("timings.parquet"):
         figures.accuracy_speed(store)
     if store.has("observations.parquet"):
+        outcome.save(store, outcome.outcomes(store))
         html_report(store, made)
     return made
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 import pandas as pd
 from tabulate import tabulate
 
@@ -59,3 +60,30 @@ def _tex(text: str) -> str:
 def markdown(table: Table) -> str:
     align = ["left"] + ["right"] * (table.text.shape[1] - 1)
     return f"**{table.title}** {table.caption}\n\n{table.text.to_markdown(index=False, colalign=align, disable_numparse=True)}\n"
+
+
+def of(count: int, total: int) -> str:
+    """'3/40', or '-' where there is nothing to count."""
+    return f"{count}/{total}" if total else "-"
+
+
+def fraction(counts: pd.DataFrame, count: str, total: str) -> list[str]:
+    return [of(c, t) for c, t in zip(counts[count], counts[total])]
+
+
+def interval(counts: pd.DataFrame, name: str) -> list[str]:
+    """Wilson interval in percent: '0.8-7.1'."""
+    return ["-" if np.isnan(low) else f"{100 * low:.1f}-{100 * high:.1f}" for low, high in zip(counts[f"{name}_low"], counts[f"{name}_high"])]
+
+
+def share(count: int, total: int) -> str:
+    return "all" if count == total else f"{count}/{total}"
+
+
+def pivot(counts: pd.DataFrame, column: str, cell, order=None) -> pd.DataFrame:
+    """A row per method, a column per value of `column`: cell(row) of each, '-' where there is none."""
+    counts = counts.assign(cell=[cell(r) for r in counts.itertuples()])
+    wide = counts.pivot(index="method", columns=column, values="cell")
+    order = [c for c in (order or counts[column].unique()) if c in wide.columns]
+    wide = wide.reindex(index=counts.method.unique(), columns=order).fillna("-")
+    return wide[(wide != "-").any(axis=1)].rename_axis(columns=None).reset_index()

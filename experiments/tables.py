@@ -12,19 +12,16 @@ import pandas as pd
 from baselines import registry
 from ofg import QUESTIONS
 
-from . import metrics, scenarios
+from . import accuracy, metrics, scenarios, views
 from .config import ConfigError, RunConfig, TableChoice, closest
 from .inside import inside
 from .methods import method_table
 from .rows import filled
 from .store import Store
-from .table import MARK, Table, latex, marked, markdown, texts
-from .timing import SIZES, situation_of, size_of
+from .table import Table, latex, markdown, of, pivot, texts
+from .timing import SITUATIONS, SIZES, situation_of, size_of
 
 __all__ = ["Table", "build", "check", "latex", "markdown", "save", "texts"]
-
-BANDS = (1e-2, 1e-4, 1e-7)  # of |gap| / size, that tables are split by
-
 
 def build(store: Store) -> Iterator[Table]:
     """Every table of the run that has rows, in reading order: first those that its configuration asks for."""
@@ -32,20 +29,20 @@ def build(store: Store) -> Iterator[Table]:
         yield from stepping_tables(store)
         return
     found = metrics.outcomes(store)
-    particular = [chosen_table(store, found, choice) for choice in store.config.tables]
+    particular = [table for choice in store.config.tables for table in chosen_tables(store, found, choice)]
     yield from (table for table in particular if len(table.text))
     yield from (replace(table, headline=table.headline and not particular) for table in general(store, found))
 
 
 def general(store: Store, found: pd.DataFrame) -> Iterator[Table]:
     """The tables that every run has."""
-    makers = [truth_table(store), method_table(store, found), *([leaderboard(found)] if found.question.nunique() > 1 else [])]
+    makers = [truth_table(store), method_table(store, found), *accuracy.leaderboards(found)]
     for question in found.question.unique():
         part = found[(found.question == question) & (found.detail != f"does not answer {question}")]
-        makers += [accuracy_table(part, question), touching_table(part, question)]
-        makers.append(scenario_table(part, question))
+        makers += [accuracy.accuracy_table(part, question), accuracy.common_table(part, question), touching_table(part, question)]
+        makers += [accuracy.scenario_table(part, question), accuracy.rank_table(part, question)]
         if question == "overlap":
-            makers.append(gap_table(part))
+            makers.append(accuracy.gap_table(part))
         else:
             makers += [speed_table(part, question), time_table(part, question)]
     makers.append(trouble_table(found))
@@ -69,8 +66,9 @@ def save(store: Store, tables: list[Table]) -> None:
 COLUMNS = ("level", "scenario", "question", "situation", "faces", "band")
 COUNTS = {  # value of a table -> columns of metrics.rates, name of its interval, and what it says
     "misses": ("misses", "hits", "miss", "Certified hits answered clear, of those answered."),
-    "false alarms": ("false_alarms", "clears", "alarm", "Certified clears answered hit, of those answered, beyond the method's documented margin."),
+    "false alarms": ("false_alarms", "clears", "alarm", "Certified clears answered hit, of those answered."),
     "wrong": ("wrong", "judged", "wrong", "Misses and false alarms, of the certified cases answered."),
+    "beyond": ("beyond", "judged", "beyond", "Wrong by more than the method's own documented tolerance, of the certified cases answered."),
     "tunnelled": ("tunnelled", "can_tunnel", "tunnel", "Misses, of the certified hits answered whose start and end are both clear."),
     "answered": ("answered", "asked", "answered", "Cases answered, of those asked.")}
 IN_NOISE = ("No ratio (-) where the reference's net time lies within the noise of its floor, the "
@@ -97,9 +95,25 @@ def check(config: RunConfig) -> None:
                               f"({', '.join(sorted(tags)) or 'which have none'}).")
 
 
-def chosen_table(store: Store, found: pd.DataFrame, choice: TableChoice) -> Table:
-    """A table that the configuration asks for: a row per method, a column per value of choice.columns."""
+def chosen_tables(store: Store, found: pd.DataFrame, choice: TableChoice) -> Iterator[Table]:
+    """A table that the configuration asks for; of times one for each situation, since what a query costs hangs on it."""
+    if choice.value not in CLOCKED or choice.situation or choice.columns == "situation":
+        yield chosen_table(store, found, choice)
+        return
+    there = set(situation_of(_chosen_rows(found, choice)))
+    for situation in (s for s in SITUATIONS if s in there):
+        yield chosen_table(store, found, choice.model_copy(update={
+            "name": f"{choice.name}-{situation}", "title": f"{choice.title.rstrip('.')}: {situation}.", "situation": situation}))
+
+
+def _chosen_rows(found: pd.DataFrame, choice: TableChoice) -> pd.DataFrame:
     part = found[found.scenario.isin(choice.scenarios or set(found.scenario)) & found.question.isin([choice.question] if choice.question else QUESTIONS)]
+    return part[situation_of(part) == choice.situation] if choice.situation else part
+
+
+def chosen_table(store: Store, found: pd.DataFrame, choice: TableChoice) -> Table:
+    """A row per method, a column per value of choice.columns."""
+    part = _chosen_rows(found, choice)
     column, order = _column(part, choice.columns)
     part = part.assign(column=column).dropna(subset=["column"])
     part = part[~part.detail.str.startswith("does not answer", na=False)]
@@ -110,18 +124,18 @@ def chosen_table(store: Store, found: pd.DataFrame, choice: TableChoice) -> Tabl
     else:
         numbers, cell, note = _off(part, choice.value)
     numbers = numbers.rename(columns={"column": choice.columns})
-    text = _pivot(numbers, choice.columns, cell, order)
+    text = pivot(numbers, choice.columns, cell, order)
     return Table(choice.name, choice.title, " ".join(filter(None, [choice.note, note])), numbers, text, choice.headline, choice=choice)
 
 
 def _column(part: pd.DataFrame, name: str) -> tuple[pd.Series, list[str]]:
     """The column of each row, and the columns in their order."""
     if name == "band":
-        return gap_bands(part.relative_gap)
+        return views.gap_bands(part.relative_gap)
     if name == "faces":
         return size_of(part.faces), [title for _, title in SIZES]
     if name == "situation":
-        return situation_of(part), ["deep", "near", "apart", "hit", "clear"]
+        return situation_of(part), list(SITUATIONS)
     values = part[name] if name in COLUMNS else part.tags.map({text: json.loads(text).get(name) for text in part.tags.unique()})
     found = values.dropna().unique()
     if all(isinstance(v, (int, float, np.number)) for v in found):
@@ -132,12 +146,11 @@ def _column(part: pd.DataFrame, name: str) -> tuple[pd.Series, list[str]]:
 def _counted(part: pd.DataFrame, value: str):
     count, total, interval, note = COUNTS[value]
     counts = metrics.rates(part, ["method", "column"])
-    counts["wrong"], counts["judged"] = counts.misses + counts.false_alarms, counts.hits + counts.clears
     if f"{interval}_low" not in counts:
         bounds = [metrics.wilson(c, t) for c, t in zip(counts[count], counts[total])]
         counts[f"{interval}_low"], counts[f"{interval}_high"] = zip(*bounds) if bounds else ((), ())
-    numbers = counts[["method", "column", *dict.fromkeys([count, total, f"{interval}_low", f"{interval}_high", "asked", "answered", "uncertain", "conservative"])]]
-    return numbers, lambda r: _of(getattr(r, count), getattr(r, total)), f"{note} 95 % Wilson intervals in the CSV."
+    numbers = counts[["method", "column", *dict.fromkeys([count, total, f"{interval}_low", f"{interval}_high", "asked", "answered", "uncertain", "within"])]]
+    return numbers, lambda r: of(getattr(r, count), getattr(r, total)), f"{note} 95 % Wilson intervals in the CSV."
 
 
 def _clocked(store: Store, part: pd.DataFrame, value: str):
@@ -171,7 +184,7 @@ def stepping_tables(store: Store) -> Iterator[Table]:
     told = rows[rows.tunnelled.notna()]
     for scene, part in told.groupby("scene", sort=False):
         part = part.assign(travelled=[f"{t:g}" for t in part.travel])
-        text = part.assign(cell=[_of(r.tunnelled, r.runs) for r in part.itertuples()]).pivot(index="contestant", columns="travelled", values="cell")
+        text = part.assign(cell=[of(r.tunnelled, r.runs) for r in part.itertuples()]).pivot(index="contestant", columns="travelled", values="cell")
         text = text.reindex(index=part.contestant.unique(), columns=part.travelled.unique()).rename_axis(columns=None)
         text["us/step"] = part.groupby("contestant").us_per_step.median().map(lambda v: f"{v:.1f}")
         yield Table(f"stepping-{scene.replace(' ', '-')}", f"Got past: {scene}.", "Tunnelled of the runs, by thicknesses travelled per step; each run has its own start phase. 95 % "
@@ -212,48 +225,6 @@ def truth_table(store: Store) -> Table:
                  ("exposes", "precision", "drawn again"))
 
 
-def leaderboard(found: pd.DataFrame) -> Table:
-    """All questions at once: a row per method, the least share of wrong answers first."""
-    counts = metrics.rates(found, ["method"])
-    counts["wrong"], counts["judged"] = counts.misses + counts.false_alarms, counts.hits + counts.clears
-    counts["wrong_low"], counts["wrong_high"] = zip(*(metrics.wilson(w, n) for w, n in zip(counts.wrong, counts.judged)))
-    counts = counts.assign(share=counts.wrong / counts.judged).sort_values(["share", "wrong_high"], kind="stable", na_position="last")
-    single = metrics.out_of_their_depth(found)
-    text = pd.DataFrame({"method": marked(counts.method, single),
-                         "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
-                         "wrong": _fraction(counts, "wrong", "judged"), "95 %": _interval(counts, "wrong")})
-    each = metrics.rates(found, ["method", "question"])
-    for question in found.question.unique():
-        kinds = (("misses", "hits", "missed"), ("false_alarms", "clears", "false"))
-        own = each[each.question == question].set_index("method")[[c for kind in kinds for c in kind[:2]]].reindex(counts.method, fill_value=0)
-        for count, total, name in kinds:
-            counts[f"{question}_{count}"], counts[f"{question}_{total}"] = own[count].to_numpy(), own[total].to_numpy()
-            text[f"{question} {name}"] = _fraction(own, count, total)
-    text["in margin"] = counts.conservative.astype(str).to_list()
-    numbers = counts[["method", "asked", "answered", "wrong", "judged", "wrong_low", "wrong_high", "conservative", *(c for c in counts if c.startswith(tuple(QUESTIONS)))]]
-    return Table("leaderboard", "Leaderboard, all questions.", "Misses and false alarms of the certified cases answered, least share first, 95 % Wilson intervals "
-                 "in percent. A method that answers fewer cases had fewer chances to be wrong: compare within a column. In margin: as in the accuracy tables."
-                 + _single(single),
-                 numbers, text, False, ("95 %", "in margin"))
-
-
-def accuracy_table(part: pd.DataFrame, question: str) -> Table:
-    counts = metrics.rates(part, ["method"])
-    single = metrics.out_of_their_depth(part)
-    text = pd.DataFrame({"method": marked(counts.method, single),
-                         "answered": [_share(a, n) for a, n in zip(counts.answered, counts.asked)],
-                         "misses": _fraction(counts, "misses", "hits"), "95 %": _interval(counts, "miss")})
-    if question != "overlap":
-        text["tunnelled"] = _fraction(counts, "tunnelled", "can_tunnel")
-    text["false alarms"] = _fraction(counts, "false_alarms", "clears")
-    text["95 % "] = _interval(counts, "alarm")  # the blank keeps the two names apart
-    text["in margin"] = counts.conservative.astype(str)
-    tunnelling = " Tunnelled: misses of sweeps whose start and end are both clear." if question != "overlap" else ""
-    return Table(f"accuracy-{question}", f"Accuracy, {question}.", "Over the certified cases that a method answered; 95 % Wilson intervals in percent."
-                 f"{tunnelling} In margin: hits reported within the method's documented margin, not counted as "
-                 f"false alarms.{_single(single)}", counts, text, True, ("95 %", "95 % ", "in margin", "tunnelled"))
-
-
 def touching_table(part: pd.DataFrame, question: str) -> Table:
     """What each method said where the bodies share a point and no more; without such cases no rows."""
     counts = metrics.rates(part[part.touching], ["method"])
@@ -267,41 +238,6 @@ def touching_table(part: pd.DataFrame, question: str) -> Table:
     return Table(f"touching-{question}", f"Touching, {question}.", caption, numbers, text, True)
 
 
-def _single(names: set[str]) -> str:
-    """The line under a table that explains its marks."""
-    if not names:
-        return ""
-    return (f"{MARK}: computes or holds bodies in single precision, and was asked cases whose numbers are "
-            "not rounded to it.")
-
-
-def scenario_table(part: pd.DataFrame, question: str) -> Table:
-    counts = metrics.rates(part, ["method", "scenario"])
-    counts["wrong"] = counts.misses + counts.false_alarms
-    counts["judged"] = counts.hits + counts.clears
-    return Table(f"scenarios-{question}", f"Wrong answers by scenario, {question}.", "Misses and false alarms of the certified cases answered; - where "
-                 "a method answered none.", counts[["method", "scenario", "misses", "false_alarms", "conservative", "hits", "clears"]],
-                 _pivot(counts, "scenario", lambda r: _of(r.wrong, r.judged)))
-
-
-def gap_table(part: pd.DataFrame) -> Table:
-    bands, order = gap_bands(part.relative_gap)
-    part = part.assign(band=bands).dropna(subset=["band"])
-    counts = metrics.rates(part, ["method", "band"])
-    counts["wrong"], counts["judged"] = counts.misses + counts.false_alarms, counts.hits + counts.clears
-    return Table("gap-overlap", "Wrong answers by signed gap over size, overlap.", "Left of 0 the bodies overlap (misses), right of it they are apart (false alarms).",
-                 counts[["method", "band", "misses", "false_alarms", "conservative", "hits", "clears"]],
-                 _pivot(counts, "band", lambda r: _of(r.wrong, r.judged), order))
-
-
-def gap_bands(relative_gap: pd.Series) -> tuple[pd.Series, list[str]]:
-    """The band of each signed relative gap, and the bands from deep to far."""
-    edges = [-np.inf, *(-b for b in BANDS), 0.0, *reversed(BANDS), np.inf]
-    bounds = [f"{e:.0e}".replace("e-0", "e-") if e else "0" for e in edges[1:-1]]
-    names = [f"below {bounds[0]}", *(f"{low} to {high}" for low, high in zip(bounds, bounds[1:])), f"above {bounds[-1]}"]
-    return pd.cut(relative_gap, edges, labels=names).astype(object), names
-
-
 def speed_table(part: pd.DataFrame, question: str) -> Table:
     """Tunnelling along the axis of the first scenario whose axis is a speed over a thickness."""
     walls = [n for n in part.scenario.unique() if "thickness" in _axis(n)]
@@ -310,7 +246,7 @@ def speed_table(part: pd.DataFrame, question: str) -> Table:
     levels = [f"{v:g}" for v in sorted(part.level.unique())]
     counts["speed"] = [f"{v:g}" for v in counts.level]
     return Table(f"tunnelling-{question}", f"Misses against speed over thickness, {question}.", f"Scenario {', '.join(walls)}; columns are thicknesses travelled in the step.",
-                 counts, _pivot(counts, "speed", lambda r: _of(r.misses, r.hits), levels) if len(counts) else counts)
+                 counts, pivot(counts, "speed", lambda r: of(r.misses, r.hits), levels) if len(counts) else counts)
 
 
 def time_table(part: pd.DataFrame, question: str) -> Table:
@@ -332,10 +268,8 @@ def cost_tables(store: Store) -> Iterator[Table]:
     state = _state(store)
     note = (f"Microseconds per query from Python: net (gross). Net is gross less the method's floor, its own call on two tetrahedra far "
             f"apart. Columns: faces of the larger body. Medians over cases of medians over rounds; poses differ from call to call. {state}")
-    for question, part in metrics.costs(store, ("question", "faces")).groupby("question", sort=False):
-        yield Table(f"cost-{question}", f"Time, {question}.", note, part, _by_faces(part, lambda r: _cost(r.net, r.gross)), headline=True)
     for (question, situation), part in metrics.costs(store).groupby(["question", "situation"], sort=False):
-        yield Table(f"cost-{question}-{situation}", f"Time, {question}, {situation}.", note, part, _by_faces(part, lambda r: _cost(r.net, r.gross)))
+        yield Table(f"cost-{question}-{situation}", f"Time, {question}, {situation}.", note, part, _by_faces(part, lambda r: _cost(r.net, r.gross)), headline=True)
     reference = _reference(store.config)
     for (question, situation), part in metrics.paired_ratios(store, reference).groupby(["question", "situation"], sort=False):
         yield Table(f"ratio-{question}-{situation}", f"Net time over that of {reference}, {question}, {situation}.", "Median of the ratios case by case on the cases both "
@@ -362,31 +296,6 @@ def _cost(net: float, gross: float) -> str:
 
 def _microseconds(ns: float) -> str:
     return f"{ns / 1e3:.2f}" if ns < 1e4 else f"{ns / 1e3:.1f}" if ns < 1e5 else f"{ns / 1e3:.0f}"
-
-
-def _pivot(counts: pd.DataFrame, column: str, cell, order=None) -> pd.DataFrame:
-    counts = counts.assign(cell=[cell(r) for r in counts.itertuples()])
-    wide = counts.pivot(index="method", columns=column, values="cell")
-    order = [c for c in (order or counts[column].unique()) if c in wide.columns]
-    wide = wide.reindex(index=counts.method.unique(), columns=order).fillna("-")
-    return wide[(wide != "-").any(axis=1)].rename_axis(columns=None).reset_index()
-
-
-def _of(count: int, total: int) -> str:
-    return f"{count}/{total}" if total else "-"
-
-
-def _fraction(counts: pd.DataFrame, count: str, total: str) -> list[str]:
-    return [_of(c, t) for c, t in zip(counts[count], counts[total])]
-
-
-def _interval(counts: pd.DataFrame, name: str) -> list[str]:
-    """Wilson interval in percent: '0.8-7.1'."""
-    return ["-" if np.isnan(low) else f"{100 * low:.1f}-{100 * high:.1f}" for low, high in zip(counts[f"{name}_low"], counts[f"{name}_high"])]
-
-
-def _share(count: int, total: int) -> str:
-    return "all" if count == total else f"{count}/{total}"
 
 
 def _axis(name: str) -> str:

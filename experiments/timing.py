@@ -39,6 +39,7 @@ from .rows import cases_of
 from .shard import Shard
 from .store import Store
 
+SITUATIONS = ("deep", "near", "apart", "hit", "clear")  # see situation_of
 SIZES = ((0, "to 24"), (25, "25-150"), (151, "151-700"), (701, "over 700"))  # least number of faces, name
 NEAR = 1e-2  # of gap over size: what lies closer to touching is timed apart from the rest
 LEAST_ROUNDS = 3

@@ -46,7 +46,7 @@ def board(found: pd.DataFrame, heading: str) -> list[dict]:
     if found.empty:
         return []
     counts, made = metrics.rates(found, ["method", "question"]).set_index(["method", "question"]), []
-    judged = found[found.outcome.isin(["right", "miss", "false alarm", "conservative"])]
+    judged = found[found.outcome.isin(metrics.JUDGED)]
     wrong = (
         judged.outcome.isin(["miss", "false alarm"])
         .groupby([judged.method, judged.scenario], sort=False)
@@ -65,7 +65,7 @@ def board(found: pd.DataFrame, heading: str) -> list[dict]:
         worst = wrong.loc[method].sort_values(["mean", "size"], ascending=False, kind="stable").iloc[0]
         row["worst family"] = f"{worst.name} {worst['sum']:.0f}/{worst['size']:.0f}" if worst["sum"] else "none"
         mine = counts.loc[method].query("answered > 0 or failed > 0")
-        row["in margin"] = str(mine.conservative.sum()) if mine.conservative.any() else "-"
+        row["beyond its tolerance"] = f"{mine.beyond.sum()}/{mine.judged.sum()}"
         row["answered"] = f"{mine.answered.sum()}/{mine.asked.sum()}"
         row["failed"] = str(mine.failed.sum())
         made.append(row)
@@ -174,8 +174,8 @@ def sections(runs: Runs) -> list[str]:
     parts = [
         f"Misses and false alarms in the run {runs.link(runs.board)}, pooled over all its families as it weights them: families"
         " are aimed at difficulties, so these are not rates of everyday use. Worst family: the largest share wrong, misses and"
-        " false alarms. In margin: clears called hits closer than the method's documented margin, which are not counted as false"
-        " alarms. Answered: of the cases of the questions that it takes; the rest are bodies that it does not take, or failed:"
+        " false alarms. Beyond its tolerance: wrong by more than the"
+        " method's documentation allows. Answered: of the cases of the questions that it takes; the rest are bodies that it does not take, or failed:"
         " crashes and timeouts."
     ]
     for heading in (*ENGINES, SAMPLING):

@@ -11,6 +11,7 @@ import pandas as pd
 
 from ofg import QUESTIONS
 
+from ..outcome import JUDGED
 from ..table import unmarked
 from ..timing import SIZES
 
@@ -19,7 +20,9 @@ COLUMNS = {
     "misses": "miss",
     "tunnelled": "tunnelled",
     "false alarms": "false alarm",
-    "in margin": "conservative",
+    "wrong": "wrong",
+    "beyond": "beyond",
+    "contained": "contained",
     "answered": "answered",
     "times": "timed",
     "median |error|": "timed",
@@ -34,6 +37,7 @@ VALUES = {
     "misses": "judged hit",
     "false alarms": "judged clear",
     "wrong": "judged",
+    "beyond": "judged",
     "tunnelled": "can tunnel",
     "answered": "asked",
     "time error": "timed",
@@ -44,7 +48,8 @@ VALUES = {
     "build time": "clocked",
     "ratio": "clocked",
 }
-LABELLED = ("right", "miss", "false alarm", "conservative")
+#: tables over the cases that all methods answered, which no link can say
+UNLINKED = ("common-", "ranks-")
 
 
 def links(table, found: pd.DataFrame) -> list[list[dict | None]]:
@@ -55,6 +60,8 @@ def links(table, found: pd.DataFrame) -> list[list[dict | None]]:
     """
     if table.choice:
         return _chosen(table, found)
+    if table.name.startswith(UNLINKED):
+        return [[None] * table.text.shape[1] for _ in range(len(table.text))]
     scenarios, bands = set(found.scenario.unique()), set(_bands(found))
     text, place = table.text, {}
     for question in QUESTIONS:
@@ -77,6 +84,7 @@ def _chosen(table, found: pd.DataFrame) -> list[list[dict | None]]:
     place = {
         "kind": VALUES[choice.value],
         **({"question": choice.question} if choice.question else {}),
+        **({"situation": choice.situation} if choice.situation else {}),
         **({"scenarios": list(choice.scenarios)} if choice.scenarios else {}),
     }
     columns = {str(column): _values(choice.columns, str(column), found) for column in table.text.columns[1:]}
@@ -124,7 +132,7 @@ def _link(name, column, value, row, place, scenarios, bands) -> dict | None:
         return None
     if name.startswith("touching"):
         return {**link, "kind": "touching"} if column == "answered" else None
-    if column in scenarios:
+    if name.startswith("scenarios-") and column in scenarios:  # one of them is called "contained", as a column elsewhere
         return {**link, "scenario": column, "kind": "judged"}
     if column in bands:
         return {**link, "band": column, "kind": "judged"}
@@ -149,18 +157,20 @@ def select(found: pd.DataFrame, link: dict, clocked: set[tuple[str, str]] = froz
 
 
 def kinds(found: pd.DataFrame, kind: str, clocked=frozenset()) -> pd.Series:
-    """An outcome; "tunnelled", "wrong"; what rates are over: "judged", "judged hit", "judged clear", "can tunnel", "asked",
+    """An outcome; "tunnelled", "wrong", "within" or "beyond" the method's tolerance; what rates are over: "judged", "judged hit", "judged clear", "can tunnel", "asked",
     "answered"; "timed" (has an error of its time), "late", "early"; "clocked" (timed by the clock); "all"."""
     if kind == "all":
         return pd.Series(True, found.index)
-    if kind == "wrong":
-        return found.outcome.isin(["miss", "false alarm"])
+    if kind in ("wrong", "within"):
+        return found[kind]
+    if kind == "beyond":
+        return found.wrong & ~found.within
     if kind == "judged":
-        return found.outcome.isin(LABELLED)
+        return found.outcome.isin(JUDGED)
     if kind == "judged hit":
-        return found.outcome.isin(LABELLED) & (found.label == "hit")
+        return found.outcome.isin(JUDGED) & (found.label == "hit")
     if kind == "judged clear":
-        return found.outcome.isin(LABELLED) & (found.label == "clear")
+        return found.outcome.isin(JUDGED) & (found.label == "clear")
     if kind == "can tunnel":
         return found.can_tunnel
     if kind == "asked":
@@ -179,6 +189,6 @@ def kinds(found: pd.DataFrame, kind: str, clocked=frozenset()) -> pd.Series:
 
 
 def _bands(found: pd.DataFrame) -> list[str]:
-    from ..tables import gap_bands
+    from ..views import gap_bands
 
     return gap_bands(found.relative_gap[:0])[1]

@@ -39,7 +39,7 @@ WORST_FIRST = (
     "false alarm",
     "error",
     "timeout",
-    "conservative",
+    "contained",
     "touching",
     "right",
     "no label",

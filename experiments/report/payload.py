@@ -14,13 +14,14 @@ import pandas as pd
 
 import ofg
 from baselines import registry
+from baselines.contract import Method
 from ofg import Body
 from ofg.decomposition import kept_at
 
-from .. import metrics, scenarios, tables
+from .. import metrics, nesting, scenarios, tables, views
 from ..methods import UNKNOWN
 from ..progress import stage
-from ..rows import MOTION, cases_of, filled
+from ..rows import MOTION, body_row, cases_of, filled
 from ..store import Store
 from ..timing import SIZES, situation_of, size_of
 from . import lanes, selection
@@ -30,7 +31,7 @@ CODES = {
     "right": "r",
     "miss": "m",
     "false alarm": "f",
-    "conservative": "c",
+    "contained": "i",
     "touching": "b",
     "no label": "n",
     "unsupported": "u",
@@ -47,14 +48,14 @@ OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
 def of_run(store: Store, made_tables=None) -> dict:
     """Everything the page of a run shows; see page/data.js for its reading."""
-    rows, found = filled(store.read("cases.parquet")), metrics.outcomes(store)
+    rows, found = filled(nesting.of(store, store.read("cases.parquet"))), metrics.outcomes(store)
     made = {
         "mode": "run",
         "run": _run(store),
         "codes": {code: name for name, code in CODES.items()},
         "cases": _cases(rows),
         "sizes": [name for _, name in SIZES],
-        "bands": tables.gap_bands(pd.Series([], dtype=float))[1],
+        "bands": views.gap_bands(pd.Series([], dtype=float))[1],
         "scenarios": _scenarios(rows),
         **_observations(found, rows),
     }
@@ -69,7 +70,7 @@ def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict, 
 
     refused: why the checker does not accept its label, if it does not.
     """
-    rows = filled(pd.DataFrame([row]))
+    rows = nesting.added(filled(pd.DataFrame([row])), pd.DataFrame([body_row(b) for b in (case.query.a, case.query.b)]))
     found = metrics.judge(observations, rows)
     made = {
         "mode": "case",
@@ -77,7 +78,7 @@ def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict, 
         "codes": {code: name for name, code in CODES.items()},
         "cases": _cases(rows),
         "sizes": [name for _, name in SIZES],
-        "bands": tables.gap_bands(pd.Series([], dtype=float))[1],
+        "bands": views.gap_bands(pd.Series([], dtype=float))[1],
         "scenarios": _scenarios(rows),
         "lanes": {},
         "tables": [],
@@ -127,6 +128,7 @@ def _cases(rows: pd.DataFrame) -> dict:
         "gap",
         "touching",
         "reason",
+        "kind",
         "size",
         "faces",
         *MOTION,
@@ -141,7 +143,7 @@ def _cases(rows: pd.DataFrame) -> dict:
         tags=[json.loads(t) for t in rows.tags],
         situation=situation.tolist(),
         sizes=size_of(rows.faces).tolist(),
-        band=tables.gap_bands(relative)[0].where(relative.notna(), None).tolist(),
+        band=views.gap_bands(relative)[0].where(relative.notna(), None).tolist(),
         relative=relative.tolist(),
     )
     return made
@@ -163,7 +165,7 @@ def _method(label: str, versions: dict) -> dict:
             "engine": name,
             "configuration": "",
             "solid": None,
-            "margin": 0,
+            "tolerance": "unknown",
             "guarantee": UNKNOWN,
             "answers": [],
             "bodies": [],
@@ -180,7 +182,7 @@ def _method(label: str, versions: dict) -> dict:
         "version": versions.get(cls.engine),
         "configuration": method.configuration,
         "solid": method.solid,
-        "margin": float(method.margin),
+        "tolerance": str(method.tolerance) if isinstance(method, Method) else "unknown",
         "guarantee": cls.guarantee,
         "answers": [q for q in ofg.QUESTIONS if q in cls.questions],
         "bodies": sorted(cls.bodies),
@@ -202,8 +204,8 @@ def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
     for _, part in found.groupby(pd.Categorical(found.method, labels), observed=True):
         letters = ["."] * len(rows)
         at = part.case.map(place)
-        for i, outcome in zip(at, part.outcome):
-            letters[i] = CODES[outcome]
+        for i, outcome, within in zip(at, part.outcome, part.within):
+            letters[i] = CODES[outcome].upper() if within else CODES[outcome]
         made["outcome"].append("".join(letters))
         for name in ("time", "error"):
             there = part[name].notna()

@@ -18,10 +18,10 @@ from tests.experiments import strangers
 ROOT = Path(__file__).parents[2]
 MINE = '''
 import ofg
-from baselines.contract import Method, Verdict
+from baselines.contract import Method, Tolerance, Verdict
 class Mine(Method):
     name, engine, imports, configuration, guarantee = "mine", "ofg", "ofg", "default", "none"
-    questions, bodies, solid, margin = frozenset(ofg.QUESTIONS), frozenset(["convex", "mesh", "union"]), True, 0.25
+    questions, bodies, solid, tolerance = frozenset(ofg.QUESTIONS), frozenset(["convex", "mesh", "union"]), True, Tolerance(0.25)
     def prepare(self, query):
         return lambda: Verdict(False)
 METHODS = [Mine]
@@ -119,7 +119,7 @@ def test_a_run_is_read_without_its_code_and_with_what_it_declared(run, tmp_path)
     result = bench(tmp_path / "a", "tables", here)
     assert result["code"] == 0 and "they are not run" in result["err"] and not (run.parent / "RAN").exists()
     methods = pd.read_csv(here / "tables/methods.csv").set_index("method")
-    assert methods.margin["mine"] == 0.25 and methods.guarantee["mine"] == "none"
+    assert methods.tolerance["mine"] == "0.25" and methods.guarantee["mine"] == "none"
     assert (here / "tables/by-level.csv").read_bytes() == (run / "tables/by-level.csv").read_bytes()
 
 

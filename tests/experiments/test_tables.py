@@ -8,9 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from experiments import metrics, tables
+from experiments import accuracy, metrics, tables
 from experiments.cli import _strips, _width, console
 from experiments.config import RunConfig, TableChoice
+
+from .cubes import BODIES, placed
 
 nan = np.nan
 
@@ -31,6 +33,11 @@ class Run:
                  for c, build, ns in (("(floor)", 0, [100] * 3), ("a", 5000, [100 + 1000 * scale] * 3), ("b", 5000, [100 + 2000 * scale] * 3))]
         times.append(("overlap", "to 24", "deep", "(noise probe)", "", 0, [10, 10, 10]))
         self.timings = pd.DataFrame(times, columns=["question", "faces", "situation", "method", "case", "build_ns", "rounds_ns"])
+
+        self.cases, self.bodies = placed(self.cases), BODIES
+
+    def has(self, name):
+        return hasattr(self, name.removesuffix(".parquet"))
 
     def read(self, name):
         return getattr(self, name.removesuffix(".parquet"))
@@ -126,7 +133,7 @@ def test_the_leaderboard_counts_all_questions_and_puts_the_least_share_of_errors
     more = pd.DataFrame(more, columns=run.observations.columns).astype({"hit": "boolean"})
     run.observations = pd.concat([run.observations[run.observations.method == "ofg k=8"], more], ignore_index=True)
     found = metrics.outcomes(run)
-    text = tables.leaderboard(found).text.set_index("method")
+    text = accuracy.leaderboards(found)[0].text.set_index("method")
     assert list(text.index) == ["brute-force", "ofg k=8"]  # 0 of 4; 2 of 8
     own = text.loc["ofg k=8"]
     assert (own.wrong, own["overlap missed"], own["overlap false"], own["translation missed"], own["translation false"]) == ("2/8", "1/3", "1/1", "0/3", "0/1")
@@ -145,7 +152,7 @@ def asked_in(precision):
 
 
 def test_single_precision_is_marked_where_cases_are_not_rounded_to_it():
-    for make in (lambda found: tables.accuracy_table(found, "overlap"), tables.leaderboard):
+    for make in (lambda found: accuracy.accuracy_table(found, "overlap"), lambda found: accuracy.common_table(found, "overlap")):
         plain, marked = make(asked_in("float32")), make(asked_in("float64"))
         assert set(plain.text.method) == {"mujoco", "fcl-convex"} and "\u2020" not in plain.caption
         assert set(marked.text.method) == {"mujoco \u2020", "fcl-convex"}

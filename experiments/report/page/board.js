@@ -7,7 +7,7 @@ function drawBoard() {
     if (!r.answered) return void silent.push(label);
     rows.push({ m, label, about: D.methods[m], r, cost: cost(m, F.lane, subset), all: r.answered === r.asked });
   });
-  const place = { question: F.question, sizes: F.sizes, situation: F.situation, band: F.band, scenario: F.scenario };
+  const place = { question: F.question, sizes: F.sizes, situation: F.situation, bodies: F.bodies, band: F.band, scenario: F.scenario };
   const count = (row, n, total, kind, title) =>
     total
       ? [link({ ...place, method: row.label, kind }, share(n, total), title), el("small", {}, interval(wilson(n, total)))]
@@ -45,10 +45,16 @@ function drawBoard() {
       cell: (x) => count(x, x.r.alarms, x.r.clears, "false alarm"),
     },
     {
-      title: "In margin",
-      note: "hits reported within the method's own documented margin: not counted as false alarms",
-      key: (x) => x.r.conservative,
-      cell: (x) => (x.r.conservative ? link({ ...place, method: x.label, kind: "conservative" }, String(x.r.conservative)) : "0"),
+      title: "Beyond",
+      note: "wrong by more than the tolerance that the method's documentation states",
+      key: (x) => rate(x.r.beyond, x.r.judged),
+      cell: (x) => count(x, x.r.beyond, x.r.judged, "beyond"),
+    },
+    {
+      title: "Contained",
+      note: "hits of a body inside another whose surfaces do not meet: no test of surfaces can see them, and they are in no rate",
+      key: (x) => x.r.contained,
+      cell: (x) => (x.r.contained ? link({ ...place, method: x.label, kind: "contained" }, String(x.r.contained)) : "0"),
     },
     sweep && {
       title: "Tunnelled",

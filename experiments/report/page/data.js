@@ -57,12 +57,17 @@ async function body(index) {
 }
 
 // What a letter counts as.
-const JUDGED = new Set(["r", "m", "f", "c"]),
-  ANSWERED = new Set(["r", "m", "f", "c", "b", "n"]),
+// Capitals: wrong, but within the tolerance that the method's documentation states.
+const MISS = new Set(["m", "M"]),
+  ALARM = new Set(["f", "F"]),
+  WITHIN = new Set(["M", "F"]),
+  JUDGED = new Set(["r", ...MISS, ...ALARM]),
+  ANSWERED = new Set([...JUDGED, "i", "b", "n"]),
   LOST = new Set(["u", "e", "t"]);
 const KINDS = {
   all: () => true,
-  wrong: (x) => x === "m" || x === "f",
+  wrong: (x) => MISS.has(x) || ALARM.has(x),
+  beyond: (x) => x === "m" || x === "f",
   judged: (x) => JUDGED.has(x),
   "judged hit": (x, i) => JUDGED.has(x) && D.cases.label[i] === "hit",
   asked: (x, i, m) => !(D.details[D.detail[m].get(i)] || "").startsWith("does not answer"),
@@ -70,14 +75,15 @@ const KINDS = {
   "can tunnel": (x, i) => ANSWERED.has(x) && D.canTunnel[i],
   answered: (x) => ANSWERED.has(x),
   failed: (x) => x === "e" || x === "t",
-  tunnelled: (x, i) => x === "m" && D.canTunnel[i],
+  tunnelled: (x, i) => MISS.has(x) && D.canTunnel[i],
   timed: (x, i, m) => D.error[m].has(i),
   late: (x, i, m) => D.error[m].get(i) > 0,
   early: (x, i, m) => D.error[m].get(i) < 0,
   clocked: (x, i, m) => clocked(m).has(i),
-  miss: (x) => x === "m",
-  "false alarm": (x) => x === "f",
-  conservative: (x) => x === "c",
+  miss: (x) => MISS.has(x),
+  "false alarm": (x) => ALARM.has(x),
+  within: (x) => WITHIN.has(x),
+  contained: (x) => x === "i",
   touching: (x) => x === "b",
   right: (x) => x === "r",
   "no label": (x) => x === "n",
@@ -102,7 +108,9 @@ const KIND_WORDS = {
   miss: "misses",
   "can tunnel": "can tunnel",
   "false alarm": "false alarms",
-  conservative: "hits within the margin",
+  beyond: "wrong beyond the method's own tolerance",
+  within: "wrong within the method's own tolerance",
+  contained: "contained: no test of surfaces can see them",
   touching: "touching: neither answer is wrong",
   right: "right",
   "no label": "no certified label",
@@ -133,6 +141,7 @@ function casesOf(link, among) {
     ["band", "band"],
     ["sizes", "sizes"],
     ["situation", "situation"],
+    ["bodies", "kind"],
     ["label", "label"],
   ].filter(([key]) => link[key] !== undefined && link[key] !== "");
   const found = [];
@@ -174,7 +183,8 @@ function rates(m, among) {
     misses: 0,
     clears: 0,
     alarms: 0,
-    conservative: 0,
+    within: 0,
+    contained: 0,
     canTunnel: 0,
     tunnelled: 0,
     late: 0,
@@ -194,12 +204,13 @@ function rates(m, among) {
     else {
       r.answered++;
       if (JUDGED.has(x)) D.cases.label[i] === "hit" ? r.hits++ : r.clears++;
-      if (x === "m") r.misses++;
-      else if (x === "f") r.alarms++;
-      else if (x === "c") r.conservative++;
+      if (MISS.has(x)) r.misses++;
+      else if (ALARM.has(x)) r.alarms++;
+      else if (x === "i") r.contained++;
+      if (WITHIN.has(x)) r.within++;
       if (D.canTunnel[i]) {
         r.canTunnel++;
-        if (x === "m") r.tunnelled++;
+        if (MISS.has(x)) r.tunnelled++;
       }
     }
     const e = errors.get(i);
@@ -210,7 +221,7 @@ function rates(m, among) {
       ((r.worstLate = Math.max(r.worstLate, e)), (r.worstEarly = Math.min(r.worstEarly, e)));
     }
   }
-  ((r.wrong = r.misses + r.alarms), (r.judged = r.hits + r.clears), (r.medianError = median(list)));
+  ((r.wrong = r.misses + r.alarms), (r.beyond = r.wrong - r.within), (r.judged = r.hits + r.clears), (r.medianError = median(list)));
   return r;
 }
 

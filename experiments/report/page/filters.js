@@ -1,5 +1,6 @@
 // One choice of cases for the whole page; who shows figures listens.
-const F = { question: "", sizes: "", situation: "", band: "", scenario: "", lane: "" };
+const F = { question: "", sizes: "", situation: "", bodies: "", band: "", scenario: "", shared: "", lane: "" };
+const LEAST = 0.5; // share of the cases that a method answers, or it does not decide which are common: views.LEAST
 const listeners = [];
 let subset = [];
 
@@ -11,11 +12,20 @@ function refilter(changes = {}) {
     ["scenario", "scenario"],
     ["sizes", "sizes"],
     ["band", "band"],
+    ["bodies", "kind"],
   ])
     if (F[key] && !there(column, F[key])) F[key] = "";
-  subset = casesOf({ question: F.question, sizes: F.sizes, situation: F.situation, band: F.band, scenario: F.scenario });
+  subset = casesOf({ question: F.question, sizes: F.sizes, situation: F.situation, bodies: F.bodies, band: F.band, scenario: F.scenario });
+  if (F.shared) subset = shared(subset);
   drawFilters();
   for (const listen of listeners) listen();
+}
+
+// The cases that every method answered which answers at least half of them.
+function shared(among) {
+  const answers = (m, i) => ANSWERED.has(D.outcome[m][i]);
+  const asked = D.labels.map((_, m) => m).filter((m) => among.filter((i) => answers(m, i)).length >= LEAST * among.length);
+  return among.filter((i) => asked.every((m) => answers(m, i)));
 }
 
 function values(column) {
@@ -59,6 +69,7 @@ function drawFilters() {
       select("Situation", ordered(["deep", "near", "apart", "hit", "clear", "uncertain"], "situation"), F.situation, (v) =>
         refilter({ situation: v }),
       ),
+      select("Bodies", ordered(["convex", "union", "mesh"], "kind"), F.bodies, (v) => refilter({ bodies: v })),
       select("Gap / size", ordered(D.bands, "band"), F.band, (v) => refilter({ band: v })),
       select(
         "Scenario",
@@ -66,10 +77,21 @@ function drawFilters() {
         F.scenario,
         (v) => refilter({ scenario: v }),
       ),
+      D.labels.length > 1
+        ? select(
+            "Cases",
+            [
+              ["", "all"],
+              ["common", "answered by all"],
+            ],
+            F.shared,
+            (v) => refilter({ shared: v }),
+          )
+        : null,
       Object.keys(D.lanes).length > 1 ? select("Times from", Object.keys(D.lanes), F.lane, (v) => refilter({ lane: v })) : null,
       el("span", { class: "count", role: "status" }, `${plural(subset.length, "case")}` + uncertainWords()),
-      F.sizes || F.situation || F.band || F.scenario
-        ? el("button", { type: "button", onclick: () => refilter({ sizes: "", situation: "", band: "", scenario: "" }) }, "Clear")
+      F.sizes || F.situation || F.bodies || F.band || F.scenario || F.shared
+        ? el("button", { type: "button", onclick: () => refilter({ sizes: "", situation: "", bodies: "", band: "", scenario: "", shared: "" }) }, "Clear")
         : null,
     ].filter(Boolean),
   );

@@ -1,13 +1,13 @@
 // The cases behind a choice: the misses, false alarms and late times of one method, or those of any cell of the page.
 const PAGE = 24;
 const G = { method: "", kind: "", more: {}, shown: PAGE, list: [] };
-const GALLERY_KINDS = ["miss", "tunnelled", "false alarm", "late", "early", "conservative", "touching", "failed", "wrong", "right", "all"];
+const GALLERY_KINDS = ["miss", "tunnelled", "false alarm", "late", "early", "beyond", "within", "contained", "touching", "failed", "wrong", "right", "all"];
 
 function openCases(to) {
   const questions = new Set(casesOf(to).map((i) => D.cases.question[i]));
   if (!to.question && questions.size === 1) to = { ...to, question: [...questions][0] };
   if (to.question && to.question !== F.question)
-    refilter({ question: to.question, sizes: "", situation: "", band: "", scenario: "" });
+    refilter({ question: to.question, sizes: "", situation: "", bodies: "", shared: "", band: "", scenario: "" });
   const { method = "", kind = "all", ...more } = to;
   Object.assign(G, {
     method,

@@ -6,7 +6,7 @@ const WHAT = {
   miss: { words: "misses", of: (r) => [r.misses, r.hits] },
   "false alarm": { words: "false alarms", of: (r) => [r.alarms, r.clears] },
   tunnelled: { words: "tunnelled", of: (r) => [r.tunnelled, r.canTunnel] },
-  conservative: { words: "hits within the margin", of: (r) => [r.conservative, r.clears] },
+  beyond: { words: "wrong beyond the own tolerance", of: (r) => [r.beyond, r.judged] },
   late: { words: "late times", of: (r) => [r.late, r.timed] },
   answered: { words: "answered", of: (r) => [r.answered, r.asked], good: true },
 };
@@ -91,7 +91,7 @@ function drawPivot() {
   );
   const table = document.getElementById("pivot-table");
   table.replaceChildren(sortable(columns, rows, { id: "pivot", caption: `${WHAT[what].words}, ${F.question}` }));
-  if (what === "conservative" || what === "answered" || what === "late") return;
+  if (what === "answered" || what === "late") return;
   table.append(
     el("p", { class: "note" }, "Each cell: how many of how many, with the 95 % Wilson interval below. Shading follows the rate."),
   );

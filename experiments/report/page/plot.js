@@ -187,7 +187,7 @@ async function drawPlot() {
     (F.lane === "native"
       ? "Native times are of the libraries in one C++ loop, on pairs of their own of these sizes (experiments/native.py); rates are of this run's cases. "
       : "") +
-    `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: answers only part of them, and is not on the Pareto front. At ≤ 0.05: no dearer than the method's own floor. Whiskers: 95 % Wilson intervals. Labels that would cover others are left out. A click on a point shows the cases behind it; the leaderboard above holds the same figures.`;
+    `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: answers only part of them, and is not on the Pareto front (choose the cases that all answer, above, to compare all). At ≤ 0.05: no dearer than the method's own floor. Whiskers: 95 % Wilson intervals. Labels that would cover others are left out. A click on a point shows the cases behind it; the leaderboard above holds the same figures.`;
 }
 
 // A corner of its point for each label where it covers no other label and no point, as nearly as is known before drawing; a label without
@@ -214,7 +214,7 @@ function placeLabels(points, width) {
   return placed;
 }
 
-const here = () => ({ question: F.question, sizes: F.sizes, situation: F.situation, band: F.band, scenario: F.scenario });
+const here = () => ({ question: F.question, sizes: F.sizes, situation: F.situation, bodies: F.bodies, band: F.band, scenario: F.scenario });
 
 function pareto(points) {
   const front = [];

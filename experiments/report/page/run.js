@@ -50,7 +50,7 @@ function drawRun() {
         key: (x) => x.solid,
         cell: (x) => (x.solid === null ? "–" : x.solid ? "solids" : "surfaces"),
       },
-      { title: "Margin", key: (x) => x.margin, cell: (x) => number(x.margin) },
+      { title: "Tolerance", left: true, cell: (x) => x.tolerance },
       { title: "Guarantee, by its documentation", left: true, cell: (x) => el("span", { class: "wide" }, x.guarantee) },
     ],
     D.methods,

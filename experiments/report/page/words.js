@@ -118,7 +118,7 @@ function ofgWords(i, label, x) {
   if (x.bodies.some((b, k) => b !== D.drawn[i][k]))
     lines.push("It was asked about CoACD's pieces of the mesh, which are another body than the mesh near its surface.");
   const letter = D.outcome[D.method.get(label)]?.[i], hit = c.label[i] === "hit";
-  if ((letter === "m" || letter === "f" || letter === "r") && x.hit !== (letter === "r" ? hit : letter === "f"))
+  if ((letter === "r" || MISS.has(letter) || ALARM.has(letter)) && x.hit !== (letter === "r" ? hit : ALARM.has(letter)))
     lines.push("The OFG that made this page answers otherwise than the one of the run.");
   if (x.hit) {
     lines.push(

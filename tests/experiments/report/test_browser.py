@@ -170,7 +170,7 @@ def test_every_cell_by_difficulty_leads_to_its_cases(open_page, written):
 def test_cells_of_saved_tables_lead_where_the_data_say(open_page, written, run, found):
     from experiments.report import payload
     from experiments.report.cells import select
-    from experiments.tables import gap_bands
+    from experiments.views import gap_bands
     from experiments.timing import situation_of, size_of
 
     page, checked = open_page(written), 0

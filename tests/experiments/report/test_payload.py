@@ -9,7 +9,7 @@ import re
 import numpy as np
 import pytest
 
-from experiments import metrics, tables
+from experiments import metrics, tables, views
 from experiments.report import certificate, page, payload, report
 from experiments.report.cells import links, select
 from experiments.rows import cases_of
@@ -25,7 +25,7 @@ def given(run):
 def found(run):
     found = metrics.outcomes(run)
     return found.assign(
-        band=tables.gap_bands(found.relative_gap)[0],
+        band=views.gap_bands(found.relative_gap)[0],
         sizes=size_of(found.faces),
         situation=situation_of(found).where(found.label != "uncertain", "uncertain"),
     )
@@ -36,7 +36,8 @@ def test_letters_are_the_outcomes(given, found):
     words = given["codes"]
     for label, letters in zip(given["labels"], given["outcome"]):
         part = found[found.method == label]
-        assert [words[letters[place[c]]] for c in part.case] == part.outcome.tolist()
+        assert [words[letters[place[c]].lower()] for c in part.case] == part.outcome.tolist()
+        assert [letters[place[c]].isupper() for c in part.case] == part.within.tolist()
         assert len(letters) == len(place) and letters.count(".") == len(place) - len(part)
 
 
