@@ -107,7 +107,7 @@ class BulletGjkCast(_Cast):
 class BulletGjkCastExact(_Exact, BulletGjkCast):
     """The cast has no penetration solver and loses contact where hulls without margin touch.
 
-    So they keep a small one: of 253 hits it misses 113 to 154 without.
+    So they keep a small one: in the same unit 146 of 253 hits are missed without.
     """
 
     name = "bullet-gjk-cast-exact"
