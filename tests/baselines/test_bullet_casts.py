@@ -2,10 +2,11 @@
 
 import math
 from dataclasses import replace
+from itertools import product
 
 import pytest
 
-from baselines import registry
+from baselines import native, registry
 from baselines.conformance import bar, body, sweep
 from baselines.contract import MissingEngine
 from baselines.native import library
@@ -86,3 +87,16 @@ def test_a_plugin_that_does_not_open_says_so(monkeypatch, tmp_path):
 def test_the_version_names_bullet_and_the_plugin():
     number, digest = library.version("libbullet").split("+")
     assert float(number) > 2 and len(digest) == 8
+
+
+@built
+@pytest.mark.parametrize("place", [(-5, 0.3, 0.1), (-4, 2.5, 0), (0.9, 0.7, 0.5)])
+def test_the_native_lane_says_the_same(place):
+    query = sweep("translation", "convex", place, (8, 0, 0))
+    rows = native.run([query], rounds=1, warmup=0)
+    rows = rows[rows.engine.str.contains("-cast")].set_index("engine")
+    for cast, end in product(CASTS, ("", "-exact")):
+        name = f"bullet-{cast}-cast{end}"
+        said, expected = rows.loc[name], verdict(name, query)
+        assert bool(said.hit) == expected.hit
+        assert said.time == pytest.approx(expected.time, abs=1e-6, nan_ok=True)
