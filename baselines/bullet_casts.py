@@ -91,7 +91,7 @@ class BulletSubsimplexCast(_Cast):
 
 
 class BulletSubsimplexCastExact(_Exact, BulletSubsimplexCast):
-    """9 of 253 hits are missed in every unit: those of bodies that start within 1e-9 of contact."""
+    """In units from 32 on 9 of 253 hits are missed: bodies that start 1e-10 or less from contact."""
 
     name = "bullet-subsimplex-cast-exact"
     guarantee = "btSubsimplexConvexCast without margins, the start tested by GJK/EPA"
