@@ -1,6 +1,7 @@
 """Bullet 3 through PyBullet: convex hulls by getClosestPoints, at one pose or at substeps.
 
-Sweeps are sampled, because getClosestPoints knows no motion; Bullet's own swept sphere belongs to the stepping track.
+Sweeps are sampled, because getClosestPoints knows no motion. Bullet's continuous casts, which PyBullet does not
+offer, are in bullet_casts.py; its swept sphere belongs to the stepping track.
 A union is a plain loop over all pairs of pieces: PyBullet's compound shape takes no vertices. Meshes are refused, but for
 the -coacd methods, which decompose them: a hull would be another body, and mesh against mesh silently returns nothing.
 Traps worked around here:

@@ -15,6 +15,7 @@ from types import ModuleType
 
 from . import declaration
 from .contract import Method
+from .native import library
 
 
 class UnknownMethod(ValueError):
@@ -89,7 +90,9 @@ def make(spec: str) -> list[Method]:
 
 
 def available(cls: type[Method]) -> str | None:
-    """None if the method's engine can be imported here, else the reason and the remedy."""
+    """None if the method's engine can be imported here or is built, else the reason and the remedy."""
+    if cls.engine in library.ENGINES:
+        return library.missing(cls.engine)
     try:
         found = importlib.util.find_spec(cls.imports) is not None
     except (ImportError, ValueError):
@@ -98,7 +101,9 @@ def available(cls: type[Method]) -> str | None:
 
 
 def version(cls: type[Method]) -> str:
-    """Version of the engine's distribution, as the manifest records it; 'absent' where it is not installed."""
+    """Version of the engine, as the manifest records it; 'absent' where it is not installed."""
+    if found := library.version(cls.engine):
+        return found
     try:
         return importlib.metadata.version(cls.engine)
     except importlib.metadata.PackageNotFoundError:

@@ -14,6 +14,7 @@ from pathlib import Path
 import psutil
 
 from baselines import registry
+from baselines.native import library
 
 from .config import RunConfig
 
@@ -58,7 +59,9 @@ def now() -> str:
 
 
 def version(name: str) -> str | None:
-    """Of an installed distribution; None where it is not installed."""
+    """Of an installed distribution, or of a library that the native lane built; None where there is none."""
+    if found := library.version(name):
+        return found
     try:
         return metadata.version(name)
     except metadata.PackageNotFoundError:

@@ -31,7 +31,7 @@ LIMIT = 0.3  #: of the native time: a larger difference is explained
 
 WHY = {  # engine: why its net Python time is not its native time
     "bullet": "pybullet makes two collision objects, a contact test and a list of points for each call, more than its floor holds; the native "
-              "lane asks the GJK pair detector alone",
+              "lane asks the GJK pair detector alone. The casts are the same code in both lanes; their floor holds the cast of two tetrahedra",
     "coal": "its floor, a call on tetrahedra, holds part of the test itself, which is most of it on cheap pairs",
     "fcl": "its floor holds part of the test on cheap pairs, and a hit costs more than a miss (python-fcl builds a list of contacts); where the "
            "ratio is below 1 on large bodies the wheel's FCL is faster than Debian's build of the same version",

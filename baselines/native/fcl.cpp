@@ -71,7 +71,7 @@ struct Overlap final : Fcl {
 struct Advancement final : Fcl {
   fcl::ContinuousCollisionRequestd request;
 
-  Advancement() : Fcl("fcl-advancement-convex toc_err=0.0001", convex) {
+  Advancement() : Fcl("fcl-advancement-convex toc_err=0.0001 path=trans", convex) {
     request.num_max_iterations = 1000;
     request.ccd_motion_type = fcl::CCDM_TRANS;
     request.gjk_solver_type = fcl::GST_INDEP;

@@ -14,7 +14,7 @@ from .runs import Missing, Rate, Runs, grid, interval, listed, or_reason, rate, 
 
 ENGINES = {  # heading -> distributions; sampled methods stand under a heading of their own
     "FCL": ("python-fcl",),
-    "Bullet": ("pybullet",),
+    "Bullet": ("pybullet", "libbullet"),
     "MuJoCo": ("mujoco",),
     "Coal": ("coal",),
     "Rapier": ("rapier3d",),

@@ -49,6 +49,22 @@ def test_fcl_mesh_default_request_misses_pass_throughs():
     assert missed >= 36
 
 
+def test_fcl_meets_a_plate_on_the_linear_path_with_its_own_solver():
+    """With libccd some boxes pass a plate unseen; on CCDM_TRANS some that fall obliquely."""
+    rng = np.random.default_rng(0)
+    best = "fcl-advancement-convex"
+    missed = dict.fromkeys(("fcl-ccd-convex", f"{best} path=trans", best), 0)
+    for _ in range(100):
+        half, thin = rng.uniform(0.2, 1, 3), rng.uniform(0.01, 0.3)
+        x, y, z = *rng.uniform(-3, 3, 2), half[2] + thin + rng.uniform(0.1, 2)
+        motion = Motion((*rng.uniform(-0.3, 0.3, 2), -2 * z))
+        at = Pose(position=(x, y, z))
+        query = Query("translation", box(*half), box(4, 4, thin), at, Pose(), motion)
+        for name in missed:
+            missed[name] += not verdict(name, query).hit
+    assert missed.pop(best) == 0 and min(missed.values()) > 0
+
+
 @pytest.mark.parametrize("name", ["fcl-naive-convex", "fcl-naive-mesh", "fcl-advancement-convex"])
 def test_fcl_linear_motion_does_not_depend_on_stale_memory(name):
     query = Query("motion", body("convex"), body("convex"), Pose(position=(-5, 0, 0)), Pose(), Motion((10, 0, 0), (0, 0, 1), 1.0))
