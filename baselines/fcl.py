@@ -223,24 +223,24 @@ def _legs(query: Query) -> int:
 class _DefaultRequest(_Continuous):
     """ContinuousCollisionRequest() as it comes: conservative advancement, CCDM_TRANS, 10 iterations, toc_err 1e-4.
 
-    CCDM_TRANS ignores the rotation; a newcomer who passes two turned poses is not told, so `motion` is answered too.
+    CCDM_TRANS moves a body along a line and ignores its rotation, so `motion` is not declared: the
+    request for it is CCDM_LINEAR (fcl-advancement-*, fcl-naive-*).
     """
 
     configuration = "default"
-    questions = frozenset({"translation", "motion"})
-    path = {"translation": "CCDM_TRANS", "motion": "CCDM_TRANS"}
+    questions = frozenset({"translation"})
 
 
 class FclCcdMesh(_Mesh, _DefaultRequest):
     # Cubes of 2 passing through each other, head-on and turned: 37 of 40 missed. Known upstream (fcl 555, python-fcl 38).
     name = "fcl-ccd-mesh"
-    guarantee = "conservative advancement, time within toc_err = 1e-4; CCDM_TRANS ignores rotation"
+    guarantee = "conservative advancement, time within toc_err = 1e-4; translations only (CCDM_TRANS)"
 
 
 class FclCcdConvex(_Convex, _DefaultRequest):
     # 6 of 40 cube pass-throughs missed with libccd, none with GST_INDEP.
     name = "fcl-ccd-convex"
-    guarantee = "conservative advancement, time within toc_err = 1e-4; CCDM_TRANS ignores rotation"
+    guarantee = "conservative advancement, time within toc_err = 1e-4; translations only (CCDM_TRANS)"
 
 
 class _Advancement(_Continuous):
