@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 from baselines import fcl, ipctk, registry
 from baselines.conformance import body, box, sweep
 from baselines.contract import Unsupported
+from experiments.scenarios import get
+from experiments.truth import label
 from ofg import Motion, Pose, Query
 
 
@@ -134,3 +136,11 @@ def test_ipctk_pieces_are_the_fewest_within_the_chord():
     n = registry.methods()["ipctk-ccd-exact"].parameters["n"]
     off = [1 - np.cos(np.pi / pieces) for pieces in (n // 2, n)]
     assert np.log2(n) % 1 == 0 and off[0] > ipctk.CHORD >= off[1]
+
+
+def test_fcl_misses_wedges_between_nearly_parallel_faces():
+    """Its GJK ends before the wedge is found, in the units of the best effort too: fcl issue 445."""
+    cases = [get("near_parallel").case(2004, 1e-8, index) for index in range(20)]
+    hits = [case.query for case in cases if label(case.query).label == "hit"]
+    for name in ("fcl-convex", "fcl-convex-exact"):
+        assert sum(not verdict(name, query).hit for query in hits) > len(hits) / 4
