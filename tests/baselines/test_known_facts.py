@@ -58,7 +58,7 @@ def test_fcl_linear_motion_does_not_depend_on_stale_memory(name):
     ask = registry.make(name)[0].prepare(query)
     answers = set()
     for stale in (0, 0x7F, 0xFF, 0x3F):
-        fcl._zero_motions(stale)
+        fcl._fill_motions(stale)
         answers.add(ask())
     assert len(answers) == 1 and answers.pop().hit
 
