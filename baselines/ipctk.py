@@ -1,6 +1,8 @@
 """IPC Toolkit: exact triangle intersection, and continuous collision of vertices on straight lines (Tight-Inclusion).
 
-Bodies of every kind are triangle soups, so containment is not seen. A motion is cut into n chords: the answer is about the chords.
+Bodies of every kind are triangle soups, so containment is not seen. The continuous test is
+documented for vertices on straight lines. With n = 1 a turn is refused; with n > 1 it is asked as
+n chords, and the answer is about the chords.
 The toolkit assumes that a step starts free of intersections, and sees nothing where it does not; the start is tested first, as its
 documentation asks. Touching counts as a hit.
 """
@@ -17,6 +19,8 @@ from ofg import Pose, Query
 
 from .contract import Method, MissingEngine, Tolerance, Verdict
 from .sampling import Discrete, Substeps
+
+CHORD = 1e-4  #: share of the radius, as FCL's default toc_err is of the step
 
 
 @cache
@@ -58,7 +62,7 @@ class IpctkCcd(Method):
     name = "ipctk-ccd"
     engine, imports = "ipctk", "ipctk"
     configuration = "default"
-    questions = frozenset({"translation", "motion"})
+    questions = frozenset({"translation"})  # and "motion" where n > 1
     bodies = frozenset({"convex", "union", "mesh"})
     solid = False
     movers, about = 2, True
@@ -67,7 +71,12 @@ class IpctkCcd(Method):
     guarantee = "never misses on straight vertex paths, never late (interval inclusion, tolerance 1e-6); surfaces only"
     parameters = {"n": 1, "max_iterations": 10_000_000}
     allowed = {"n": (1, inf), "max_iterations": (1, 2**31 - 1)}
-    cheapest = {"n": 1}
+    cheapest = {"n": 2}  # with 1 it answers no motion; a translation is one chord whatever n is
+
+    def __init__(self, **parameters):
+        super().__init__(**parameters)
+        turned = {"motion"} if self.parameters["n"] > 1 else set()
+        self.questions = frozenset({"translation", *turned})
 
     def narrow_phase(self, ipctk):
         return ipctk.TightInclusionCCD(max_iterations=self.parameters["max_iterations"])
@@ -99,11 +108,16 @@ class IpctkCcdExact(IpctkCcd):
     Where edges meet in parallel the search does not converge and ends at max_iterations, with a time that is early: aligned cubes at 0.3
     are 3e-3 early after 30 ms (1e4 iterations), 2e-4 after 0.4 s (1e5), 2e-4 after 3 s (1e6); the default is 1e7. A start within 1e-8 of
     touching can take minutes whatever is set: the search is repeated until the time is not 0.
+
+    n = 256 is the smallest power of two with which the chords of a full turn stay within CHORD of
+    the radius from the arc. Of 120 hits and 120 clears with a turn, drawn from the standard run,
+    n = 16, 64, 256 miss 7, 0, 0 and call no clear one a hit; the median call takes 5.9, 4.2, 17 ms.
     """
 
     name = "ipctk-ccd-exact"
     configuration = "best effort"
-    parameters = {"n": 16, "max_iterations": 100_000}
+    questions = frozenset({"translation", "motion"})
+    parameters = {"n": 256, "max_iterations": 100_000}
 
     def narrow_phase(self, ipctk):
         return ipctk.TightInclusionCCD(max_iterations=self.parameters["max_iterations"], conservative_rescaling=1.0)

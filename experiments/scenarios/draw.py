@@ -59,6 +59,7 @@ VIEWS = {
     "hooked_ls": View(0.1, {}, (0.6, -0.8, 2.0), which=3),
     "large_mesh": View(0.1),
     "linked_tori": View(0.05),
+    "near_parallel": View(1e-7, {"kind": "hulls"}, which=2),
     "near_start": View(0.01, {"place": "towards", "angle": 45.0}),
     "parallel_faces": View(1e-2, which=4),
     "random_pose": View(0.75),

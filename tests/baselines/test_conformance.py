@@ -14,20 +14,15 @@ B_TURNS, ABOUT = "sees what B meets as it turns", "turns about the point that it
 # (method, property): what is wrong with the engine, measured. A defect that is gone fails the test (strict).
 KNOWN_DEFECTS = {
     ("fcl-ccd-mesh", HEAD_ON): "the default request misses mesh pass-throughs: 37 of 40 cubes",
-    ("fcl-ccd-mesh", TURNS): "the default request is CCDM_TRANS, which ignores rotation",
     ("fcl-ccd-convex", HEAD_ON): "with libccd it misses axis-aligned cubes head-on; GST_INDEP meets them",
-    ("fcl-ccd-convex", TURNS): "the default request is CCDM_TRANS, which ignores rotation",
     ("fcl-advancement-mesh", HEAD_ON): "conservative advancement on meshes misses pass-throughs at any setting",
     ("fcl-advancement-mesh", TURNS): "conservative advancement on meshes misses pass-throughs at any setting",
-    **{(f"fcl-ccd-{form}", title): "the default request is CCDM_TRANS, which ignores rotation"
-       for form in ("mesh", "convex") for title in (B_TURNS, ABOUT)},
     ("fcl-ccd-mesh", TOWARDS): "the default request misses mesh pass-throughs, whoever moves",
     ("fcl-ccd-convex", TOWARDS): "with libccd it misses axis-aligned cubes head-on, whoever moves",
     **{("fcl-advancement-mesh", title): "conservative advancement on meshes misses pass-throughs at any setting"
        for title in (TOWARDS, B_TURNS, ABOUT)},
     **{(f"bullet-{cast}-cast", CONTAINED): "it wants bodies that do not overlap at the start, as Bullet says"
        for cast in ("subsimplex", "gjk")},
-    ("ipctk-ccd", TURNS): "by default one chord stands for the whole turn",
     ("ofg", TURNS): "as the article has it, virtual edges are chords: at 170 degrees they cut through the circle",
     ("brute-force", TURNS): "its virtual edges are chords, as OFG's",
     ("ofg", ABOUT): "virtual edges are chords: about a point ten lengths off the arc leaves them by more than the cube's size",

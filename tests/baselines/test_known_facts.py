@@ -8,8 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from baselines import fcl, registry
+from baselines import fcl, ipctk, registry
 from baselines.conformance import body, box, sweep
+from baselines.contract import Unsupported
+from experiments.scenarios import get
+from experiments.truth import label
 from ofg import Motion, Pose, Query
 
 
@@ -71,7 +74,7 @@ def test_fcl_linear_motion_does_not_depend_on_stale_memory(name):
     ask = registry.make(name)[0].prepare(query)
     answers = set()
     for stale in (0, 0x7F, 0xFF, 0x3F):
-        fcl._zero_motions(stale)
+        fcl._fill_motions(stale)
         answers.add(ask())
     assert len(answers) == 1 and answers.pop().hit
 
@@ -115,3 +118,45 @@ def test_a_surface_method_misses_containment_and_a_solid_one_does_not():
     query = Query("overlap", box(0.2, 0.2, 0.2), body("convex"))
     assert not verdict("fcl-mesh", query).hit
     assert all(verdict(name, query).hit for name in ("fcl-convex", "bullet", "mujoco"))
+
+
+TURN = Query("motion", body("convex"), body("convex"), Pose(position=(-5, 0, 0)), Pose(),
+             Motion((10, 0, 0), (0, 0, 1), 1.0))
+
+
+@pytest.mark.parametrize("name", ["fcl-ccd-convex", "fcl-ccd-mesh", "ipctk-ccd"])
+def test_a_default_for_straight_paths_refuses_turns(name):
+    """Asked all the same, it answers about another motion: all misses of ipctk-ccd were of turns."""
+    assert registry.methods()[name].questions == {"translation"}
+    if registry.available(registry.methods()[name]):
+        pytest.skip("its engine is not installed")
+    with pytest.raises(Unsupported, match="does not answer motion"):
+        registry.make(name)[0].ready(TURN)
+
+
+@pytest.mark.parametrize("name", ["ipctk-ccd", "ipctk-ccd-exact"])
+def test_ipctk_answers_turns_in_pieces(name):
+    if registry.available(registry.methods()[name]):
+        pytest.skip("ipctk is not installed")
+    for n, asked in ((1, {"translation"}), (2, {"translation", "motion"})):
+        assert registry.make(f"{name} n={n}")[0].questions == asked
+    method = registry.make(f"{name} n=16 max_iterations=1000")[0]
+    assert method.ready(TURN)().hit
+    # the cheapest call, which gives its floor, has to answer whatever the method does
+    cheapest = type(method)(**{**method.parameters, **method.cheapest})
+    assert cheapest.questions == method.questions
+
+
+def test_ipctk_pieces_are_the_fewest_within_the_chord():
+    """A chord of 2 pi / n is off its arc by 1 - cos(pi / n) of the radius."""
+    n = registry.methods()["ipctk-ccd-exact"].parameters["n"]
+    off = [1 - np.cos(np.pi / pieces) for pieces in (n // 2, n)]
+    assert np.log2(n) % 1 == 0 and off[0] > ipctk.CHORD >= off[1]
+
+
+def test_fcl_misses_wedges_between_nearly_parallel_faces():
+    """Its GJK ends before the wedge is found, in the units of the best effort too: fcl issue 445."""
+    cases = [get("near_parallel").case(2004, 1e-8, index) for index in range(20)]
+    hits = [case.query for case in cases if label(case.query).label == "hit"]
+    for name in ("fcl-convex", "fcl-convex-exact"):
+        assert sum(not verdict(name, query).hit for query in hits) > len(hits) / 4

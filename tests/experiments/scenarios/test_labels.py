@@ -75,3 +75,12 @@ def test_hulls_overlap_where_the_solids_are_clear(name):
         q = scenario.case(13, level, 0).query
         hulls = Query("overlap", Body.convex(q.a.vertices), Body.convex(q.b.vertices), q.pose_a, q.pose_b)
         assert label(hulls).label == "hit"
+
+
+@pytest.mark.parametrize("level", get("near_parallel").levels)
+def test_near_parallel_faces_are_certified_and_clear_where_lifted(level):
+    """A pressed body may hang over the other's rim with its low side, so that only its label tells."""
+    for case in (get("near_parallel").case(15, level, index) for index in range(12)):
+        truth = label(case.query)
+        assert truth.label != "uncertain" and not truth.touching
+        assert truth.label == "clear" or case.tags["place"] == "pressed"
