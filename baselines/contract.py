@@ -65,6 +65,9 @@ class Method(ABC):
     movers: ClassVar[int] = 1
     #: True: it reads Motion.about. False: a body that turns about a point gets that point as its origin
     about: ClassVar[bool] = False
+    #: True: of a mesh it answers about the convex pieces of ofg.decompose, by whose truth it is
+    #: judged; may be a property
+    decomposes: bool = False
     gives_time: ClassVar[bool] = False  #: returns a time of impact for sweeps
     margin: ClassVar[float] = 0.0  #: documented distance (length) below which a clear pair may be called a hit
     precision: str = "double"  #: "single" where the engine computes, or holds a body, in float32

@@ -32,6 +32,7 @@ class MethodFacts(_Recorded):
     solid: bool
     margin: float = Field(ge=0)
     precision: Literal["double", "single"]
+    decomposes: bool = False  # manifests of older runs do not say it
     guarantee: str
     parameters: dict[str, bool | int | float | str]
 
@@ -68,6 +69,7 @@ def _method(cls) -> MethodFacts:
     said.update(questions=sorted(cls.questions), bodies=sorted(cls.bodies), margin=float(cls.margin), parameters=dict(cls.parameters))
     if not isinstance(said["precision"], str):  # a property, that its parameters decide
         said["precision"] = "double"
+    said["decomposes"] = said["decomposes"] is True  # False of a property too
     return MethodFacts.model_validate(said)
 
 

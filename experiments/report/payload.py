@@ -298,7 +298,7 @@ class Shapes:
         of a mesh."""
         (method,) = registry.make(label)
         options = {**method._options()}
-        if method.in_pieces:
+        if method.decomposes:
             if not self.anew and not all(body.kind != "mesh" or kept_at(body).is_file() for body in (query.a, query.b)):
                 return None
             try:
