@@ -8,6 +8,7 @@ from scipy.stats import binomtest
 
 from baselines import registry
 
+from . import piece_truth
 from .rows import filled
 from .store import Store, StoreError
 from .timing import FLOOR, LOST, PROBE
@@ -24,20 +25,25 @@ def outcomes(store: Store) -> pd.DataFrame:
     bodies share a point and no more, where neither answer is wrong: in no rate); "no label" (truth uncertain); or the status where it
     is not ok. tunnelled: a miss of a sweep whose start and end are certified clear. error: signed time of impact error, as a share
     of the step: beyond the certified bracket, positive late, negative early, 0 inside; NaN where there is none.
+    truth: "pieces" where a method that decomposes was asked about a mesh: label, bracket and gap are then those of the pieces,
+    relative_gap stays the mesh's; else "mesh".
     """
     said, cases = store.read("observations.parquet"), store.read("cases.parquet")
     unknown = said.case[~said.case.isin(cases.case)]
     if len(unknown):
         raise StoreError(f"{store.folder / 'observations.parquet'} has answers to the case '{unknown.iloc[0]}', which is not in cases.parquet. "
                          "The run was changed or is damaged; take it anew from where it was made, or make it again.")
-    return judge(said, cases)
+    return judge(said, cases, piece_truth.read(store))
 
 
-def judge(observations: pd.DataFrame, cases: pd.DataFrame) -> pd.DataFrame:
-    """`outcomes` for rows of observations.parquet and of cases.parquet."""
+def judge(observations: pd.DataFrame, cases: pd.DataFrame,
+          pieces: pd.DataFrame | None = None) -> pd.DataFrame:
+    """`outcomes` for rows of observations.parquet, of cases.parquet and of pieces.parquet."""
     cases = filled(cases)
     cases = cases.assign(touching=cases.touching.astype(bool))
     table = observations.merge(cases.drop(columns=["certificate"]), on="case", how="left", validate="many_to_one")
+    table["relative_gap"] = table.gap / table["size"]
+    table = piece_truth.put(table, pieces)
     answered, hit = table.status == "ok", table.hit.fillna(False).astype(bool)
     margin = table.method.map(margins(table.method.unique()))
     clear, meets = table.label == "clear", table.label == "hit"
@@ -52,8 +58,17 @@ def judge(observations: pd.DataFrame, cases: pd.DataFrame) -> pd.DataFrame:
     late, early = (table.time - table.t_hi).clip(lower=0), (table.time - table.t_lo).clip(upper=0)
     timed = answered & sweep & meets & hit & table.time.notna() & (table.start == "clear")
     table["error"] = (late + early).where(timed)
-    table["relative_gap"] = table.gap / table["size"]
     return table
+
+
+def with_pieces(store: Store, found: pd.DataFrame) -> pd.DataFrame:
+    """`outcomes`, and after them what the pieces say of the meshes, by the meshes' truth."""
+    pieces = piece_truth.read(store)
+    if pieces is None:
+        return found
+    cases = filled(store.read("cases.parquet"))
+    own = judge(piece_truth.own_error(cases, pieces), cases)
+    return pd.concat([found, own], ignore_index=True) if len(own) else found
 
 
 def out_of_their_depth(table: pd.DataFrame) -> set[str]:

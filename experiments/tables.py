@@ -12,7 +12,7 @@ import pandas as pd
 from baselines import registry
 from ofg import QUESTIONS
 
-from . import metrics, scenarios
+from . import metrics, piece_truth, scenarios
 from .config import ConfigError, RunConfig, TableChoice, closest
 from .inside import inside
 from .methods import method_table
@@ -32,22 +32,21 @@ def build(store: Store) -> Iterator[Table]:
         yield from stepping_tables(store)
         return
     found = metrics.outcomes(store)
-    particular = [chosen_table(store, found, choice) for choice in store.config.tables]
+    both = metrics.with_pieces(store, found)
+    particular = [chosen_table(store, both if choice.value in WITH_PIECES else found, choice) for choice in store.config.tables]
     yield from (table for table in particular if len(table.text))
-    yield from (replace(table, headline=table.headline and not particular) for table in general(store, found))
+    yield from (replace(table, headline=table.headline and not particular) for table in general(store, found, both))
 
 
-def general(store: Store, found: pd.DataFrame) -> Iterator[Table]:
-    """The tables that every run has."""
+def general(store: Store, found: pd.DataFrame, both: pd.DataFrame) -> Iterator[Table]:
+    """The tables that every run has. both: found, and the pieces' own error."""
     makers = [truth_table(store), method_table(store, found), *([leaderboard(found)] if found.question.nunique() > 1 else [])]
     for question in found.question.unique():
         part = found[(found.question == question) & (found.detail != f"does not answer {question}")]
-        makers += [accuracy_table(part, question), touching_table(part, question)]
-        makers.append(scenario_table(part, question))
-        if question == "overlap":
-            makers.append(gap_table(part))
-        else:
-            makers += [speed_table(part, question), time_table(part, question)]
+        also = both[(both.question == question) & (both.detail != f"does not answer {question}")]
+        makers += [accuracy_table(also, question), touching_table(part, question)]
+        makers.append(scenario_table(also, question))
+        makers += [gap_table(part)] if question == "overlap" else [speed_table(part, question), time_table(part, question)]
     makers.append(trouble_table(found))
     if store.has("timings.parquet"):
         makers += list(cost_tables(store))
@@ -73,6 +72,7 @@ COUNTS = {  # value of a table -> columns of metrics.rates, name of its interval
     "wrong": ("wrong", "judged", "wrong", "Misses and false alarms, of the certified cases answered."),
     "tunnelled": ("tunnelled", "can_tunnel", "tunnel", "Misses, of the certified hits answered whose start and end are both clear."),
     "answered": ("answered", "asked", "answered", "Cases answered, of those asked.")}
+WITH_PIECES = COUNTS.keys() - {"answered"}  # values that the pieces' own error has
 IN_NOISE = ("No ratio (-) where the reference's net time lies within the noise of its floor, the "
             "interquartile range of the floor's rounds, in half of the cases or more; such cases "
             "are left out elsewhere.")
@@ -137,7 +137,7 @@ def _counted(part: pd.DataFrame, value: str):
         bounds = [metrics.wilson(c, t) for c, t in zip(counts[count], counts[total])]
         counts[f"{interval}_low"], counts[f"{interval}_high"] = zip(*bounds) if bounds else ((), ())
     numbers = counts[["method", "column", *dict.fromkeys([count, total, f"{interval}_low", f"{interval}_high", "asked", "answered", "uncertain", "conservative"])]]
-    return numbers, lambda r: _of(getattr(r, count), getattr(r, total)), f"{note} 95 % Wilson intervals in the CSV."
+    return numbers, lambda r: _of(getattr(r, count), getattr(r, total)), f"{note} 95 % Wilson intervals in the CSV.{piece_truth.note(part)}"
 
 
 def _clocked(store: Store, part: pd.DataFrame, value: str):
@@ -251,7 +251,7 @@ def accuracy_table(part: pd.DataFrame, question: str) -> Table:
     tunnelling = " Tunnelled: misses of sweeps whose start and end are both clear." if question != "overlap" else ""
     return Table(f"accuracy-{question}", f"Accuracy, {question}.", "Over the certified cases that a method answered; 95 % Wilson intervals in percent."
                  f"{tunnelling} In margin: hits reported within the method's documented margin, not counted as "
-                 f"false alarms.{_single(single)}", counts, text, True, ("95 %", "95 % ", "in margin", "tunnelled"))
+                 f"false alarms.{_single(single)}{piece_truth.note(part)}", counts, text, True, ("95 %", "95 % ", "in margin", "tunnelled"))
 
 
 def touching_table(part: pd.DataFrame, question: str) -> Table:
@@ -280,7 +280,7 @@ def scenario_table(part: pd.DataFrame, question: str) -> Table:
     counts["wrong"] = counts.misses + counts.false_alarms
     counts["judged"] = counts.hits + counts.clears
     return Table(f"scenarios-{question}", f"Wrong answers by scenario, {question}.", "Misses and false alarms of the certified cases answered; - where "
-                 "a method answered none.", counts[["method", "scenario", "misses", "false_alarms", "conservative", "hits", "clears"]],
+                 f"a method answered none.{piece_truth.note(part)}", counts[["method", "scenario", "misses", "false_alarms", "conservative", "hits", "clears"]],
                  _pivot(counts, "scenario", lambda r: _of(r.wrong, r.judged)))
 
 

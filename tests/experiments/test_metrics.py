@@ -29,6 +29,9 @@ class Tables:
     def read(self, name):
         return self.frames[name]
 
+    def has(self, name):
+        return name in self.frames
+
 
 @pytest.fixture
 def margin(monkeypatch):

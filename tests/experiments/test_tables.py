@@ -32,6 +32,9 @@ class Run:
         times.append(("overlap", "to 24", "deep", "(noise probe)", "", 0, [10, 10, 10]))
         self.timings = pd.DataFrame(times, columns=["question", "faces", "situation", "method", "case", "build_ns", "rounds_ns"])
 
+    def has(self, name):
+        return not name.startswith("pieces")
+
     def read(self, name):
         return getattr(self, name.removesuffix(".parquet"))
 
