@@ -12,10 +12,11 @@ from baselines import registry
 from ofg import Body, BodyError, Query
 
 from . import origin, words
+from .case import Case
 from .config import RunConfig
 from .labelling import CHUNK
 from .piece_truth import FILES
-from .pool import Task, mixed, run
+from .pool import Loss, Task, mixed, run
 from .progress import stage
 from .rows import body_of, body_row, cases_of, truth_row
 from .scenario import snap
@@ -43,14 +44,13 @@ def make(store: Store, config: RunConfig, workers: int) -> None:
     already are not made again.
     """
     cases, bodies = store.read("cases.parquet"), store.read("bodies.parquet")
-    meshes = bodies[bodies.kind == "mesh"]
-    about = cases[cases.body_a.isin(meshes.body) | cases.body_b.isin(meshes.body)]
+    about = about_meshes(cases, bodies)
     if about.empty or not wanted(config):
         for name in FILES:
             store.path(name).unlink(missing_ok=True)
         return
-    made = _decomposed(store, config, workers, [body_of(row) for row in meshes.itertuples()])
-    items = [_item(case, made) for case, _ in cases_of(about, bodies)]
+    made = _decomposed(store, config, workers, meshes_of(about, bodies))
+    items = [item(case, made) for case, _ in cases_of(about, bodies)]
     used = {body.digest: body_row(body) for i in items for body in (i.query.a, i.query.b)}
     store.write(pd.DataFrame(list(used.values())), FILES[1])
     store.write(_certified(store, config, workers, items), FILES[0])
@@ -59,6 +59,18 @@ def make(store: Store, config: RunConfig, workers: int) -> None:
 def wanted(config: RunConfig) -> bool:
     """Whether a method of the run answers about the pieces of a mesh."""
     return any(method.decomposes for spec in config.asked for method in registry.make(spec))
+
+
+def about_meshes(cases: pd.DataFrame, bodies: pd.DataFrame) -> pd.DataFrame:
+    """The rows of cases with a mesh among their bodies."""
+    meshes = bodies.body[bodies.kind == "mesh"]
+    return cases[cases.body_a.isin(meshes) | cases.body_b.isin(meshes)]
+
+
+def meshes_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> list[Body]:
+    """The meshes that the cases are about, each once."""
+    used = bodies.body.isin({*cases.body_a, *cases.body_b})
+    return [body_of(row) for row in bodies[used & (bodies.kind == "mesh")].itertuples()]
 
 
 def pieces_of(mesh: Body) -> tuple[Body, str]:
@@ -75,7 +87,8 @@ def precision_of(query: Query, precision: str) -> str:
     return precision if exact else "float64"
 
 
-def _item(case, made: dict[str, tuple[Body, str]]) -> Item:
+def item(case: Case, made: dict[str, tuple[Body, str]]) -> Item:
+    """made: `pieces_of` each mesh by its digest."""
     q = case.query
     (a, fault_a), (b, fault_b) = (made.get(body.digest, (body, "")) for body in (q.a, q.b))
     query = replace(q, a=a, b=b)
@@ -87,9 +100,6 @@ def _decomposed(store: Store, config: RunConfig, workers: int, meshes) -> dict:
     facts = {**origin.facts(), "seconds": config.build_seconds}
     names = [store.shard("decompositions", **facts, mesh=mesh.digest) for mesh in meshes]
 
-    def lost(mesh, loss):
-        return mesh, f"decomposing stopped: {loss.detail}"
-
     def keep(mesh, name):
         def done(results):
             ((pieces, fault),) = results
@@ -97,7 +107,7 @@ def _decomposed(store: Store, config: RunConfig, workers: int, meshes) -> dict:
             store.write(pd.DataFrame([row]), name)
         return done
 
-    tasks = [Task(_open_mesh, None, [mesh], keep(mesh, name), lost)
+    tasks = [Task(open_mesh, None, [mesh], keep(mesh, name), lost_mesh)
              for mesh, name in zip(meshes, names) if not name.ready()]
     _run("decompose meshes", store, tasks, workers, config.build_seconds, len(meshes),
          DECOMPOSE_SECONDS)
@@ -105,8 +115,14 @@ def _decomposed(store: Store, config: RunConfig, workers: int, meshes) -> dict:
     return {row.mesh: (body_of(row), row.fault) for row in rows.itertuples()}
 
 
-def _open_mesh(_):
+def open_mesh(_):
+    """For a Task whose items are meshes."""
     return pieces_of
+
+
+def lost_mesh(mesh: Body, loss: Loss) -> tuple[Body, str]:
+    """In place of `pieces_of` a mesh whose process ended."""
+    return mesh, f"decomposing stopped: {loss.detail}"
 
 
 def _certified(store: Store, config: RunConfig, workers: int, items: list[Item]) -> pd.DataFrame:
@@ -136,16 +152,26 @@ def _open_label(_):
 
     def answer(item: Item) -> dict:
         if item.fault:
-            return _row(item, Truth("uncertain", reason=f"no convex pieces: {item.fault}"))
+            return _row(item, no_pieces(item))
         return _row(item, label(item.query))
 
     return answer
 
 
-def _lost(item: Item, loss) -> dict:
+def no_pieces(item: Item) -> Truth:
+    """The truth of a case one of whose meshes has no pieces."""
+    return Truth("uncertain", reason=f"no convex pieces: {item.fault}")
+
+
+def place(item: Item) -> dict:
+    """The columns of a row of pieces.parquet that say what it is about."""
+    return {"case": item.case, "body_a": item.query.a.digest, "body_b": item.query.b.digest,
+            "precision": item.precision}
+
+
+def _lost(item: Item, loss: Loss) -> dict:
     return _row(item, Truth("uncertain", reason=f"labelling stopped: {loss.detail}"))
 
 
 def _row(item: Item, truth: Truth) -> dict:
-    return {"case": item.case, "body_a": item.query.a.digest, "body_b": item.query.b.digest,
-            "precision": item.precision, **truth_row(truth)}
+    return {**place(item), **truth_row(truth)}
