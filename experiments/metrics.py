@@ -17,7 +17,7 @@ OUTCOMES = ("right", "miss", "false alarm", "conservative", "touching", "no labe
             "error", "timeout")
 
 
-def outcomes(store: Store) -> pd.DataFrame:
+def outcomes(store: Store, by_pieces: bool = True) -> pd.DataFrame:
     """One row per case and method: the observation, the truth, and what came of it.
 
     outcome: "right"; "miss" (certified hit, answered clear); "false alarm" (certified clear, answered hit); "conservative" (a false
@@ -26,14 +26,14 @@ def outcomes(store: Store) -> pd.DataFrame:
     is not ok. tunnelled: a miss of a sweep whose start and end are certified clear. error: signed time of impact error, as a share
     of the step: beyond the certified bracket, positive late, negative early, 0 inside; NaN where there is none.
     truth: "pieces" where a method that decomposes was asked about a mesh: label, bracket and gap are then those of the pieces,
-    relative_gap stays the mesh's; else "mesh".
+    relative_gap stays the mesh's; else "mesh", and everywhere with by_pieces false.
     """
     said, cases = store.read("observations.parquet"), store.read("cases.parquet")
     unknown = said.case[~said.case.isin(cases.case)]
     if len(unknown):
         raise StoreError(f"{store.folder / 'observations.parquet'} has answers to the case '{unknown.iloc[0]}', which is not in cases.parquet. "
                          "The run was changed or is damaged; take it anew from where it was made, or make it again.")
-    return judge(said, cases, piece_truth.read(store))
+    return judge(said, cases, piece_truth.read(store) if by_pieces else None)
 
 
 def judge(observations: pd.DataFrame, cases: pd.DataFrame,

@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 import ofg
+from experiments import compare as comparing
 from experiments import metrics, piece_truth, rows, runner, tables
 from experiments.config import RunConfig
 from experiments.store import Store
@@ -232,3 +233,22 @@ def test_a_mesh_without_pieces_leaves_its_cases_uncertain(folder, tmp_path, monk
 
 def failing(_):
     return lambda mesh: (mesh, "too thin")
+
+
+def test_a_run_and_its_reference_from_before_compare_as_identical(folder, tmp_path, capfd):
+    """Judged by pieces in one and by meshes in the other, answers would seem to move."""
+    before = forged(folder, tmp_path / "before")
+    for name in piece_truth.FILES:
+        before.path(name).unlink()
+    assert comparing.compare(before, Store(folder)).identical
+    assert "judged by the meshes" in " ".join(capfd.readouterr().err.split())
+
+
+def test_a_reference_keeps_the_truth_of_the_pieces(folder, tmp_path):
+    kept = Store(tmp_path / "reference")
+    comparing.reference(Store(folder), kept)
+    assert comparing.compare(kept, Store(folder)).identical
+    pieces = kept.read("pieces.parquet")
+    turned(pieces)
+    kept.write(pieces, "pieces.parquet")
+    assert set(comparing.compare(kept, Store(folder)).answers.method) == ON_PIECES
