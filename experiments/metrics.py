@@ -11,7 +11,7 @@ from baselines import registry
 from . import piece_truth
 from .rows import filled
 from .store import Store, StoreError
-from .timing import FLOOR, LOST, PROBE
+from .timing import FLOOR, LOST, PROBE, situation_of
 
 OUTCOMES = ("right", "miss", "false alarm", "conservative", "touching", "no label", "unsupported",
             "error", "timeout")
@@ -26,7 +26,7 @@ def outcomes(store: Store, by_pieces: bool = True) -> pd.DataFrame:
     is not ok. tunnelled: a miss of a sweep whose start and end are certified clear. error: signed time of impact error, as a share
     of the step: beyond the certified bracket, positive late, negative early, 0 inside; NaN where there is none.
     truth: "pieces" where a method that decomposes was asked about a mesh: label, bracket and gap are then those of the pieces,
-    relative_gap stays the mesh's; else "mesh", and everywhere with by_pieces false.
+    relative_gap and situation stay the mesh's; else "mesh", and everywhere with by_pieces false.
     """
     said, cases = store.read("observations.parquet"), store.read("cases.parquet")
     unknown = said.case[~said.case.isin(cases.case)]
@@ -42,7 +42,7 @@ def judge(observations: pd.DataFrame, cases: pd.DataFrame,
     cases = filled(cases)
     cases = cases.assign(touching=cases.touching.astype(bool))
     table = observations.merge(cases.drop(columns=["certificate"]), on="case", how="left", validate="many_to_one")
-    table["relative_gap"] = table.gap / table["size"]
+    table["relative_gap"], table["situation"] = table.gap / table["size"], situation_of(table)
     table = piece_truth.put(table, pieces)
     answered, hit = table.status == "ok", table.hit.fillna(False).astype(bool)
     margin = table.method.map(margins(table.method.unique()))

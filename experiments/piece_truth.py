@@ -23,8 +23,9 @@ def put(table: pd.DataFrame, pieces: pd.DataFrame | None) -> pd.DataFrame:
     """Answers with their cases' truth, and that of the pieces where a method was asked about them.
 
     table: rows of observations.parquet merged with cases. truth: PIECES, or MESH where the bodies
-    are judged as they are given.
+    are judged as they are given. case_label: the label by the bodies as they are given.
     """
+    table = table.assign(case_label=table.label)
     if pieces is None:
         return table.assign(truth=MESH)
     names = {label for label in table.method.unique() if decomposes(label)}
@@ -32,7 +33,7 @@ def put(table: pd.DataFrame, pieces: pd.DataFrame | None) -> pd.DataFrame:
     own = pieces.set_index("case").loc[table.case[about]]
     made = table.assign(truth=about.map({True: PIECES, False: MESH}))
     for name in CLAIMS:
-        made.loc[about, name] = own[name].to_numpy()
+        made.loc[about, name] = own[name].astype(made[name].dtype).to_numpy()
     return made
 
 

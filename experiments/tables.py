@@ -19,7 +19,7 @@ from .methods import method_table
 from .rows import filled
 from .store import Store
 from .table import MARK, Table, latex, marked, markdown, texts
-from .timing import SIZES, situation_of, size_of
+from .timing import SIZES, size_of
 
 __all__ = ["Table", "build", "check", "latex", "markdown", "save", "texts"]
 
@@ -121,7 +121,7 @@ def _column(part: pd.DataFrame, name: str) -> tuple[pd.Series, list[str]]:
     if name == "faces":
         return size_of(part.faces), [title for _, title in SIZES]
     if name == "situation":
-        return situation_of(part), ["deep", "near", "apart", "hit", "clear"]
+        return part.situation, ["deep", "near", "apart", "hit", "clear"]
     values = part[name] if name in COLUMNS else part.tags.map({text: json.loads(text).get(name) for text in part.tags.unique()})
     found = values.dropna().unique()
     if all(isinstance(v, (int, float, np.number)) for v in found):
