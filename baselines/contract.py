@@ -66,6 +66,9 @@ class Method(ABC):
     movers: ClassVar[int] = 1
     #: True: it reads Motion.about. False: a body that turns about a point gets that point as its origin
     about: ClassVar[bool] = False
+    #: True: of a mesh it answers about the convex pieces of ofg.decompose, by whose truth it is
+    #: judged; may be a property
+    decomposes: bool = False
     gives_time: ClassVar[bool] = False  #: returns a time of impact for sweeps
     tolerance: Tolerance = NONE  #: how far from the truth an answer may be by its documentation; may be a property
     precision: str = "double"  #: "single" where the engine computes, or holds a body, in float32

@@ -43,6 +43,7 @@ class Article(Method):
     bodies = frozenset({"convex", "union", "mesh"})
     solid = False
     movers, about = 2, True
+    decomposes = True
     gives_time = True
     guarantee = "a hit is a contact of faces to double rounding; nothing is promised about what it does not find"
     parameters = {"k": 8, "toi": "velocity", "order": "ends", "broad": "start", "iterations": 20, "precision": "double"}
@@ -116,13 +117,13 @@ class OpposingFaceGeometry(Method):
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
         options = self._options()
-        if self.in_pieces:
+        if self.decomposes:
             query = replace(query, a=_pieces(query.a), b=_pieces(query.b))
         ask = ofg.prepare(query, **options)
         return lambda: Verdict(*ask())
 
     @property
-    def in_pieces(self) -> bool:
+    def decomposes(self) -> bool:
         """Whether meshes are decomposed before they are asked."""
         options = self._options()
         return options.get("concave") != "undivided" and not options.get("adaptive_k")

@@ -18,6 +18,7 @@ class Decomposed:
     """
 
     bodies = frozenset({"convex", "union", "mesh"})
+    decomposes = True
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)

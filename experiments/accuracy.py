@@ -6,7 +6,7 @@ import pandas as pd
 
 from ofg import QUESTIONS
 
-from . import metrics, views
+from . import metrics, piece_truth, views
 from .table import MARK, Table, fraction, interval, marked, of, pivot, share
 
 BEYOND = "Beyond: wrong by more than the tolerance that the method's documentation states (table methods)."
@@ -54,7 +54,7 @@ def accuracy_table(part: pd.DataFrame, question: str) -> Table:
     if counts.contained.any():
         text["contained"] = counts.contained.astype(str)
     tunnelling = " Tunnelled: misses of sweeps whose start and end are both clear." if question != "overlap" else ""
-    return Table(f"accuracy-{question}", f"Accuracy, {question}.", _caption(f"{OWN}{tunnelling}", counts, single), counts, text, True,
+    return Table(f"accuracy-{question}", f"Accuracy, {question}.", _caption(f"{OWN}{tunnelling}", counts, single) + piece_truth.note(part), counts, text, True,
                  _there(text, "95 %", "95 % ", "contained", "tunnelled", "wrong"))
 
 
@@ -98,7 +98,7 @@ def rank_table(part: pd.DataFrame, question: str) -> Table:
 def scenario_table(part: pd.DataFrame, question: str) -> Table:
     counts = metrics.rates(part, ["method", "scenario"])
     return Table(f"scenarios-{question}", f"Wrong answers by scenario, {question}.", "Misses and false alarms of the certified cases answered; - where "
-                 "a method answered none.", counts[["method", "scenario", "misses", "false_alarms", "beyond", "contained", "hits", "clears"]],
+                 f"a method answered none.{piece_truth.note(part)}", counts[["method", "scenario", "misses", "false_alarms", "beyond", "contained", "hits", "clears"]],
                  pivot(counts, "scenario", lambda r: of(r.wrong, r.judged)))
 
 

@@ -178,7 +178,7 @@ def tables(
         found = list(made.build(store))
         made.save(store, found)
         if store.has("observations.parquet"):
-            outcome.save(store, outcome.outcomes(store))
+            outcome.save(store)
     for table in found:
         if only in table.name:
             _print_table(table)

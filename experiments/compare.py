@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from . import metrics
+from . import metrics, piece_truth
+from .progress import say
 from .rows import filled
 from .store import Store
 
@@ -52,13 +53,24 @@ class Difference:
 
 def compare(first: Store, second: Store) -> Difference:
     """Raises StoreError for a run that is not finished."""
-    a, b = (metrics.judge(store.read("observations.parquet"), store.read("cases.parquet")).drop(columns=list(INPUT), errors="ignore") for store in (first, second))
+    pieces = _judged_by_pieces(first, second)
+    a, b = (metrics.outcomes(store, pieces, nested=False).drop(columns=list(INPUT), errors="ignore") for store in (first, second))
     remade = _remade(first, second)
     both = a[~a.case.isin(remade)].merge(b, on=["case", "method"], suffixes=("_a", "_b"))
     labels = _labels(first, second)
     return Difference(_only(a.case, b.case), _only(a.method, b.method), labels[~labels.case.isin(remade)].reset_index(drop=True), _answers(both), _rates(both),
                       _times(first, second), len(both), remade, len(remade) > 0.1 * a.case.nunique(),
                       _changed(first, second, remade))
+
+
+def _judged_by_pieces(first: Store, second: Store) -> bool:
+    """Whether both runs can be; where one alone has its pieces, the reader is told."""
+    has = [store.has(piece_truth.FILES[0]) for store in (first, second)]
+    if any(has) and not all(has):
+        without = (first, second)[has.index(False)]
+        say(f"{without.folder} has no {piece_truth.FILES[0]}, as runs had none once: in both, methods "
+            "that decompose meshes are judged by the meshes.")
+    return all(has)
 
 
 def _remade(first: Store, second: Store) -> list[str]:
@@ -92,6 +104,10 @@ def reference(run: Store, into: Store) -> None:
     cases = filled(run.read("cases.parquet")).assign(certificate="")
     into.write_text(run.config.model_dump_json(indent=1) + "\n", "config.json")
     into.write(cases[list(REFERENCE)], "cases.parquet")
+    for name in piece_truth.FILES:
+        into.path(name).unlink(missing_ok=True)
+    if (pieces := piece_truth.read(run)) is not None:
+        into.write(pieces.assign(certificate=""), piece_truth.FILES[0])
     into.write(run.read("observations.parquet").assign(detail=lambda t: t.detail.str.slice(0, 60)), "observations.parquet")
 
 

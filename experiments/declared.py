@@ -43,6 +43,7 @@ class MethodFacts(_Recorded):
     solid: bool
     tolerance: ToleranceFacts
     precision: Literal["double", "single"]
+    decomposes: bool = False  # manifests of older runs do not say it
     guarantee: str
     parameters: dict[str, bool | int | float | str]
 
@@ -79,6 +80,7 @@ def _method(cls) -> MethodFacts:
     said.update(questions=sorted(cls.questions), bodies=sorted(cls.bodies), tolerance=_tolerance(cls), parameters=dict(cls.parameters))
     if not isinstance(said["precision"], str):  # a property, that its parameters decide
         said["precision"] = "double"
+    said["decomposes"] = said["decomposes"] is True  # False of a property too
     return MethodFacts.model_validate(said)
 
 

@@ -8,19 +8,20 @@ import pandas as pd
 from baselines import registry
 from baselines.tolerance import NONE, Tolerance
 
-from . import nesting
+from . import nesting, piece_truth
 from .rows import filled
 from .store import Store, StoreError
+from .timing import situation_of
 
 #: what an answer can be; one that is not "ok" has its status as its outcome
 OUTCOMES = ("right", "miss", "false alarm", "contained", "touching", "no label", "unsupported", "error", "timeout")
 JUDGED = ("right", "miss", "false alarm")  # of which rates are made
 FILE = "outcomes.parquet"
-KEPT = ("case", "method", "scenario", "level", "question", "kind", "label", "gap", "relative_gap", "touching", "nested", "status", "hit",
+KEPT = ("case", "method", "scenario", "level", "question", "kind", "truth", "label", "gap", "relative_gap", "touching", "nested", "status", "hit",
         "time", "outcome", "wrong", "tolerance", "within", "can_tunnel", "tunnelled", "error")
 
 
-def outcomes(store: Store) -> pd.DataFrame:
+def outcomes(store: Store, by_pieces: bool = True, nested: bool = True) -> pd.DataFrame:
     """One row per case and method: the observation, the truth, and what came of it.
 
     outcome: "right"; "miss" (certified hit, answered clear); "false alarm" (certified clear, answered hit); "contained" (a test of
@@ -30,26 +31,32 @@ def outcomes(store: Store) -> pd.DataFrame:
     within: wrong, at a clearance or a depth of penetration within it. tunnelled: a miss of a sweep whose start and end are certified
     clear. error: signed time of impact error, as a share of the step: beyond the certified bracket, positive late, negative early, 0
     inside; NaN where there is none. kind: of the bodies, "convex", "union" or "mesh" if one of them is.
+    truth: "pieces" where a method that decomposes was asked about a mesh: label, bracket and gap are then those of the pieces,
+    relative_gap and situation stay the mesh's; else "mesh", and everywhere with by_pieces false. nested: whether to look who is
+    contained.
     """
     said, cases = store.read("observations.parquet"), store.read("cases.parquet")
     unknown = said.case[~said.case.isin(cases.case)]
     if len(unknown):
         raise StoreError(f"{store.folder / 'observations.parquet'} has answers to the case '{unknown.iloc[0]}', which is not in cases.parquet. "
                          "The run was changed or is damaged; take it anew from where it was made, or make it again.")
-    return judge(said, nesting.of(store, cases))
+    return judge(said, nesting.of(store, cases) if nested else cases, piece_truth.read(store) if by_pieces else None)
 
 
-def save(store: Store, found: pd.DataFrame) -> None:
+def save(store: Store) -> None:
     """Write the outcomes beside the rows of the run: what the tables count, for a merge of a reader's own."""
+    found = with_pieces(store, outcomes(store))
     store.write(found[[name for name in KEPT if name in found]], FILE)
 
 
-def judge(observations: pd.DataFrame, cases: pd.DataFrame) -> pd.DataFrame:
-    """`outcomes` for rows of observations.parquet and of cases.parquet; nobody is contained where cases have no column `nested`."""
+def judge(observations: pd.DataFrame, cases: pd.DataFrame, pieces: pd.DataFrame | None = None) -> pd.DataFrame:
+    """`outcomes` for rows of observations.parquet, of cases.parquet and of pieces.parquet; nobody is contained where cases have no column `nested`."""
     cases = filled(cases)
     cases = cases.assign(touching=cases.touching.astype(bool), path=_path(cases),
                          nested=cases.nested if "nested" in cases else False)
     table = observations.merge(cases.drop(columns=["certificate"]), on="case", how="left", validate="many_to_one")
+    table["relative_gap"], table["situation"] = table.gap / table["size"], situation_of(table)
+    table = piece_truth.put(table, pieces)
     methods = _declared(table.method.unique())
     answered, hit = table.status == "ok", table.hit.fillna(False).astype(bool)
     clear, meets = table.label == "clear", table.label == "hit"
@@ -66,8 +73,17 @@ def judge(observations: pd.DataFrame, cases: pd.DataFrame) -> pd.DataFrame:
     late, early = (table.time - table.t_hi).clip(lower=0), (table.time - table.t_lo).clip(upper=0)
     timed = answered & sweep & meets & hit & table.time.notna() & (table.start == "clear")
     table["error"] = (late + early).where(timed)
-    table["relative_gap"] = table.gap / table["size"]
     return table
+
+
+def with_pieces(store: Store, found: pd.DataFrame) -> pd.DataFrame:
+    """`outcomes`, and after them what the pieces say of the meshes, by the meshes' truth."""
+    pieces = piece_truth.read(store)
+    if pieces is None:
+        return found
+    cases = filled(store.read("cases.parquet"))
+    own = judge(piece_truth.own_error(cases, pieces), cases)
+    return pd.concat([found, own], ignore_index=True) if len(own) else found
 
 
 def _path(cases: pd.DataFrame) -> np.ndarray:

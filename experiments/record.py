@@ -18,16 +18,21 @@ QUESTION = ("overlap", "translation", "motion")
 _SIDES = {f"{name}{side}": kind for side in ("", "_b")
           for name, kind in {"displacement": 3, "axis": 3, "angle": FINITE, "about": 3}.items()}
 
+_TRUTH = {"label": LABELS, "t_lo": NUMBER, "t_hi": NUMBER, "start": LABELS, "end": LABELS, "gap": NUMBER,
+          "certificate": TEXT, "precision": ("float32", "float64"), "touching": TRUTH, "reason": TEXT}
+_BODY = {"body": NAME, "name": NAME, "kind": ("convex", "mesh", "union"), "vertices": 0, "faces": 0, "piece_vertices": 0,
+         "piece_faces": 0}
+
 #: file -> column -> what it holds: a kind above, one of some words, or a list of so many finite numbers (0: of any length).
 COLUMNS: dict[str, dict] = {
     "cases.parquet": {
         "case": NAME, "scenario": NAME, "level": FINITE, "question": QUESTION, "body_a": NAME, "body_b": NAME,
         "quaternion_a": 4, "position_a": 3, "quaternion_b": 4, "position_b": 3, **_SIDES, "size": FINITE, "faces": WHOLE,
-        "tags": TEXT, "label": LABELS, "t_lo": NUMBER, "t_hi": NUMBER, "start": LABELS, "end": LABELS, "gap": NUMBER,
-        "certificate": TEXT, "index": WHOLE, "attempt": WHOLE, "precision": ("float32", "float64"), "touching": TRUTH, "reason": TEXT,
+        "tags": TEXT, "index": WHOLE, "attempt": WHOLE, **_TRUTH,
     },
-    "bodies.parquet": {"body": NAME, "name": NAME, "kind": ("convex", "mesh", "union"), "vertices": 0, "faces": 0,
-                       "piece_vertices": 0, "piece_faces": 0},
+    "bodies.parquet": _BODY,
+    "pieces.parquet": {"case": NAME, "body_a": NAME, "body_b": NAME, **_TRUTH},
+    "pieces-bodies.parquet": _BODY,
     "observations.parquet": {"case": NAME, "method": NAME, "status": ("ok", "unsupported", "error", "timeout"), "hit": TRUTH,
                              "time": NUMBER, "detail": TEXT},
     "timings.parquet": {"question": QUESTION, "faces": TEXT, "situation": TEXT, "method": NAME, "case": TEXT, "build_ns": FINITE,
@@ -38,7 +43,8 @@ COLUMNS: dict[str, dict] = {
 #: Columns that older runs, and references for `compare`, lack: rows.filled knows what then holds.
 LATER = {"index", "attempt", "precision", "touching", "reason", "about", *(c for c in _SIDES if c.endswith("_b"))}
 EMPTY = {("observations.parquet", "hit"), ("timings.parquet", "build_ns"), ("timings.parquet", "rounds_ns")}  # may be missing
-UNIQUE = {"cases.parquet": ["case"], "bodies.parquet": ["body"], "observations.parquet": ["case", "method"]}
+UNIQUE = {"cases.parquet": ["case"], "bodies.parquet": ["body"], "pieces.parquet": ["case"],
+          "pieces-bodies.parquet": ["body"], "observations.parquet": ["case", "method"]}
 
 
 class RecordError(ValueError):

@@ -34,6 +34,13 @@ def case_row(case: Case, truth: Truth, attempt: int) -> dict:
         "quaternion_b": q.pose_b.quaternion.tolist(), "position_b": q.pose_b.position.tolist(),
         **_motion_row(q.motion, ""), **_motion_row(q.motion_b, "_b"),
         "size": max(q.a.size, q.b.size), "faces": max(len(q.a.faces), len(q.b.faces)), "tags": json.dumps(dict(case.tags), sort_keys=True),
+        **truth_row(truth),
+    }
+
+
+def truth_row(truth: Truth) -> dict:
+    """The columns of a row that a truth gives."""
+    return {
         "label": truth.label, "t_lo": truth.t_lo, "t_hi": truth.t_hi, "start": truth.start, "end": truth.end, "gap": truth.gap,
         "touching": truth.touching, "reason": truth.reason,
         "certificate": json.dumps(dict(truth.certificate), sort_keys=True),

@@ -14,7 +14,7 @@ import pandas as pd
 from baselines import registry
 from ofg import decomposition, piecefile
 
-from . import answering, curves, declared, entries, figures, labelling, manifest, origin, outcome, ownfile, progress, scenarios, tables, timing
+from . import answering, curves, declared, decomposing, entries, figures, labelling, manifest, origin, outcome, ownfile, progress, scenarios, tables, timing
 from .config import ConfigError, RunConfig
 from .progress import say
 from .report import report as html_report
@@ -65,6 +65,7 @@ def finish(store: Store, config: RunConfig, workers: int) -> list[tables.Table]:
     else:
         with progress.forecast(plan(config, workers)) as forecast:
             labelling.make_cases(store, config, workers)
+            decomposing.make(store, config, workers)
             answering.ask(store, config, workers, Paces(store, config, workers, forecast).told)
             timing.measure(store, config)
         more = {"workers": workers, "halfway": halfway(forecast)}
@@ -84,7 +85,7 @@ def report(store: Store) -> list[tables.Table]:
     if store.has("timings.parquet"):
         figures.accuracy_speed(store)
     if store.has("observations.parquet"):
-        outcome.save(store, outcome.outcomes(store))
+        outcome.save(store)
         html_report(store, made)
     return made
 

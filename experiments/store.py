@@ -30,6 +30,7 @@ class StoreError(RuntimeError):
 
 class Store:
     """One run = one folder: config.json, manifest.json, cases.parquet, bodies.parquet, observations.parquet, timings.parquet,
+    pieces.parquet and pieces-bodies.parquet (where a method decomposes meshes),
     tables/, figures/, own/ (copies of a reader's own files); `parts/` holds shards of an unfinished run and is removed at its end.
     """
 

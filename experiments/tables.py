@@ -12,14 +12,14 @@ import pandas as pd
 from baselines import registry
 from ofg import QUESTIONS
 
-from . import accuracy, metrics, scenarios, views
+from . import accuracy, metrics, piece_truth, scenarios, views
 from .config import ConfigError, RunConfig, TableChoice, closest
 from .inside import inside
 from .methods import method_table
 from .rows import filled
 from .store import Store
 from .table import Table, latex, markdown, of, pivot, texts
-from .timing import SITUATIONS, SIZES, situation_of, size_of
+from .timing import SITUATIONS, SIZES, size_of
 
 __all__ = ["Table", "build", "check", "latex", "markdown", "save", "texts"]
 
@@ -29,18 +29,21 @@ def build(store: Store) -> Iterator[Table]:
         yield from stepping_tables(store)
         return
     found = metrics.outcomes(store)
-    particular = [table for choice in store.config.tables for table in chosen_tables(store, found, choice)]
+    both = metrics.with_pieces(store, found)
+    particular = [table for choice in store.config.tables
+                  for table in chosen_tables(store, both if choice.value in WITH_PIECES else found, choice)]
     yield from (table for table in particular if len(table.text))
-    yield from (replace(table, headline=table.headline and not particular) for table in general(store, found))
+    yield from (replace(table, headline=table.headline and not particular) for table in general(store, found, both))
 
 
-def general(store: Store, found: pd.DataFrame) -> Iterator[Table]:
-    """The tables that every run has."""
+def general(store: Store, found: pd.DataFrame, both: pd.DataFrame) -> Iterator[Table]:
+    """The tables that every run has. both: found, and the pieces' own error."""
     makers = [truth_table(store), method_table(store, found), *accuracy.leaderboards(found)]
     for question in found.question.unique():
         part = found[(found.question == question) & (found.detail != f"does not answer {question}")]
-        makers += [accuracy.accuracy_table(part, question), accuracy.common_table(part, question), touching_table(part, question)]
-        makers += [accuracy.scenario_table(part, question), accuracy.rank_table(part, question)]
+        also = both[(both.question == question) & (both.detail != f"does not answer {question}")]
+        makers += [accuracy.accuracy_table(also, question), accuracy.common_table(part, question), touching_table(part, question)]
+        makers += [accuracy.scenario_table(also, question), accuracy.rank_table(part, question)]
         if question == "overlap":
             makers.append(accuracy.gap_table(part))
         else:
@@ -71,6 +74,7 @@ COUNTS = {  # value of a table -> columns of metrics.rates, name of its interval
     "beyond": ("beyond", "judged", "beyond", "Wrong by more than the method's own documented tolerance, of the certified cases answered."),
     "tunnelled": ("tunnelled", "can_tunnel", "tunnel", "Misses, of the certified hits answered whose start and end are both clear."),
     "answered": ("answered", "asked", "answered", "Cases answered, of those asked.")}
+WITH_PIECES = COUNTS.keys() - {"answered"}  # values that the pieces' own error has
 IN_NOISE = ("No ratio (-) where the reference's net time lies within the noise of its floor, the "
             "interquartile range of the floor's rounds, in half of the cases or more; such cases "
             "are left out elsewhere.")
@@ -100,7 +104,7 @@ def chosen_tables(store: Store, found: pd.DataFrame, choice: TableChoice) -> Ite
     if choice.value not in CLOCKED or choice.situation or choice.columns == "situation":
         yield chosen_table(store, found, choice)
         return
-    there = set(situation_of(_chosen_rows(found, choice)))
+    there = set(_chosen_rows(found, choice).situation)
     for situation in (s for s in SITUATIONS if s in there):
         yield chosen_table(store, found, choice.model_copy(update={
             "name": f"{choice.name}-{situation}", "title": f"{choice.title.rstrip('.')}: {situation}.", "situation": situation}))
@@ -108,7 +112,7 @@ def chosen_tables(store: Store, found: pd.DataFrame, choice: TableChoice) -> Ite
 
 def _chosen_rows(found: pd.DataFrame, choice: TableChoice) -> pd.DataFrame:
     part = found[found.scenario.isin(choice.scenarios or set(found.scenario)) & found.question.isin([choice.question] if choice.question else QUESTIONS)]
-    return part[situation_of(part) == choice.situation] if choice.situation else part
+    return part[part.situation == choice.situation] if choice.situation else part
 
 
 def chosen_table(store: Store, found: pd.DataFrame, choice: TableChoice) -> Table:
@@ -135,7 +139,7 @@ def _column(part: pd.DataFrame, name: str) -> tuple[pd.Series, list[str]]:
     if name == "faces":
         return size_of(part.faces), [title for _, title in SIZES]
     if name == "situation":
-        return situation_of(part), list(SITUATIONS)
+        return part.situation, list(SITUATIONS)
     values = part[name] if name in COLUMNS else part.tags.map({text: json.loads(text).get(name) for text in part.tags.unique()})
     found = values.dropna().unique()
     if all(isinstance(v, (int, float, np.number)) for v in found):
@@ -150,7 +154,7 @@ def _counted(part: pd.DataFrame, value: str):
         bounds = [metrics.wilson(c, t) for c, t in zip(counts[count], counts[total])]
         counts[f"{interval}_low"], counts[f"{interval}_high"] = zip(*bounds) if bounds else ((), ())
     numbers = counts[["method", "column", *dict.fromkeys([count, total, f"{interval}_low", f"{interval}_high", "asked", "answered", "uncertain", "within"])]]
-    return numbers, lambda r: of(getattr(r, count), getattr(r, total)), f"{note} 95 % Wilson intervals in the CSV."
+    return numbers, lambda r: of(getattr(r, count), getattr(r, total)), f"{note} 95 % Wilson intervals in the CSV.{piece_truth.note(part)}"
 
 
 def _clocked(store: Store, part: pd.DataFrame, value: str):

@@ -11,6 +11,7 @@ import pandas as pd
 
 from ofg import QUESTIONS
 
+from .. import piece_truth
 from ..outcome import JUDGED
 from ..table import unmarked
 from ..timing import SIZES
@@ -92,7 +93,7 @@ def _chosen(table, found: pd.DataFrame) -> list[list[dict | None]]:
         [
             None,
             *(
-                {"method": row[0], **place, **columns[str(c)]} if value != "-" and columns[str(c)] else None
+                {"method": row[0], **place, **columns[str(c)]} if value != "-" and columns[str(c)] and row[0] != piece_truth.NAME else None
                 for c, value in zip(table.text.columns[1:], row[1:])
             ),
         ]
@@ -119,7 +120,7 @@ def _link(name, column, value, row, place, scenarios, bands) -> dict | None:
         return (
             {"scenario": row["scenario"], **({"label": LABELS[column]} if LABELS[column] else {})} if column in LABELS else None
         )
-    if "method" not in row or column == "method":
+    if "method" not in row or column == "method" or row["method"] == piece_truth.NAME:
         return None
     link = {"method": unmarked(row["method"]), **place}
     if name == "unanswered":
@@ -144,7 +145,7 @@ def select(found: pd.DataFrame, link: dict, clocked: set[tuple[str, str]] = froz
     keep = pd.Series(True, found.index)
     for key in ("method", "question", "scenario", "level", "band", "sizes", "situation", "label"):
         if key in link:
-            keep &= found[key] == link[key]
+            keep &= found["case_label" if key == "label" else key] == link[key]
     for key, column in (("scenarios", "scenario"), ("levels", "level")):
         if key in link:
             keep &= found[column].isin(link[key])

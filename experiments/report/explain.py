@@ -1,7 +1,8 @@
 """One case as a page of its own, from a run or from a file.
 
 The file (JSON): {"case": the row of cases.parquet, "bodies": its two rows of bodies.parquet (one where both are equal),
-"observations": rows of observations.parquet, may be missing}. A file written by hand needs of "case": question, body_a, body_b,
+"observations": rows of observations.parquet, may be missing, "pieces": its row of pieces.parquet in a list, may be missing:
+methods that decompose are then judged by the mesh}. A file written by hand needs of "case": question, body_a, body_b,
 and what is not at rest of quaternion_a, position_a, quaternion_b, position_b, displacement, axis, angle, about (of A's
 motion; with "_b" behind, of B's); of a body: body (any
 name), kind, vertices, faces (flat lists; a convex body needs no faces; a union piece_vertices and piece_faces). Where it has no
@@ -25,7 +26,7 @@ import pandas as pd
 from baselines import registry
 from ofg import Body, Motion, Pose, Query, readback
 
-from .. import answering, declared, given, metrics, pool, record
+from .. import answering, declared, given, metrics, piece_truth, pool, record
 from ..answering import COLUMNS
 from ..case import Case
 from ..config import ConfigError, RunConfig, closest, load, load_files
@@ -56,6 +57,7 @@ class Explained:
     row: dict
     said: pd.DataFrame
     refused: str = ""  #: why the checker does not accept the label
+    pieces: pd.DataFrame | None = None  #: its row of pieces.parquet, of a case of a run that has one
 
 
 def from_run(store: Store, name: str) -> Explained:
@@ -70,7 +72,9 @@ def from_run(store: Store, name: str) -> Explained:
     bodies = store.read("bodies.parquet")
     ((case, truth),) = cases_of(row, bodies[bodies.body.isin([row.body_a.iloc[0], row.body_b.iloc[0]])])
     said = store.read("observations.parquet").query("case == @name").reset_index(drop=True)
-    return Explained(case, truth, row.iloc[0].to_dict(), said, refusal(case.query, truth))
+    pieces = piece_truth.read(store)
+    own = None if pieces is None or name not in set(pieces.case) else pieces[pieces.case == name]
+    return Explained(case, truth, row.iloc[0].to_dict(), said, refusal(case.query, truth), own)
 
 
 def refusal(query: Query, truth: Truth) -> str:
@@ -89,6 +93,18 @@ def _said(rows) -> pd.DataFrame:
     if (wrong := record.wrong(said, "observations.parquet")) is not None:
         raise ValueError(f"observations: {wrong}")
     return said
+
+
+def _pieces(rows, case: Case) -> pd.DataFrame:
+    """Rows of pieces.parquet; ValueError where they are none, or of another case."""
+    if not isinstance(rows, list) or not all(isinstance(r, dict) for r in rows):
+        raise ValueError("pieces is no list of rows")
+    made = pd.DataFrame(rows, columns=list(record.COLUMNS[piece_truth.FILES[0]]))
+    if (wrong := record.wrong(made, piece_truth.FILES[0])) is not None:
+        raise ValueError(f"pieces: {wrong}")
+    if (made.case != case.id).any():
+        raise ValueError("pieces are of another case")
+    return made.astype(dict.fromkeys(("t_lo", "t_hi", "gap"), float))
 
 
 def _check_names(case: Case, said: pd.DataFrame) -> None:
@@ -129,6 +145,7 @@ def from_file(path: Path) -> Explained:
         )
         truth = _truth(row) if "label" in row else _certify(query)
         said = _typed(_said(content.get("observations", [])))
+        pieces = _pieces(content["pieces"], case) if "pieces" in content else None
         _check_names(case, said)
     except given.GivenError as error:
         raise ConfigError(str(error)) from error
@@ -141,7 +158,7 @@ def from_file(path: Path) -> Explained:
         raise ConfigError(
             f"The case file {path} has a field of the wrong form ({given.reason(error)}). Compare it with one written by: ofg-bench explain CASE --run RUN --save case.json"
         ) from error
-    return Explained(case, truth, case_row(case, truth, 0), said, refusal(query, truth))
+    return Explained(case, truth, case_row(case, truth, 0), said, refusal(query, truth), pieces)
 
 
 def save(explained: Explained, path: Path) -> None:
@@ -153,6 +170,8 @@ def save(explained: Explained, path: Path) -> None:
         for row in explained.said[COLUMNS].astype(object).to_dict("records")
     ]
     content = {"case": _listed(explained.row), "bodies": list(bodies.values()), "observations": said}
+    if explained.pieces is not None:
+        content["pieces"] = [_listed(row) for row in explained.pieces.to_dict("records")]
     path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n")
 
 
@@ -177,6 +196,7 @@ def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
         explained.row,
         _typed(pd.concat([fresh, kept], ignore_index=True) if len(kept) else fresh),
         explained.refused,
+        explained.pieces,
     )
 
 
@@ -265,14 +285,17 @@ def page(explained: Explained, versions: dict) -> str:
     from . import page as pages
     from . import payload
 
-    made = payload.of_case(explained.case, explained.truth, explained.row, explained.said, versions, explained.refused)
+    made = payload.of_case(explained.case, explained.truth, explained.row, explained.said, versions, explained.refused,
+                           explained.pieces)
     return pages.page(made, f"{explained.case.id}: one case, {'not ' * bool(explained.refused)}certified")
 
 
 def verdicts(explained: Explained) -> pd.DataFrame:
     """method, outcome, time, error, detail of every method that answers the case's question, wrong answers first."""
-    found = metrics.judge(explained.said, pd.DataFrame([explained.row]))
+    found = metrics.judge(explained.said, pd.DataFrame([explained.row]), explained.pieces)
     found = found[~found.detail.fillna("").str.startswith("does not answer")]
+    own = (found.truth == piece_truth.PIECES) & (found.detail.fillna("") == "")
+    found = found.assign(detail=found.detail.mask(own, "judged by CoACD's pieces of the mesh: " + found.label))
     order = {
         name: i
         for i, name in enumerate(WORST_FIRST)

@@ -18,7 +18,7 @@ from baselines.contract import Method
 from ofg import Body
 from ofg.decomposition import kept_at
 
-from .. import metrics, nesting, scenarios, tables, views
+from .. import metrics, nesting, piece_truth, scenarios, tables, views
 from ..methods import UNKNOWN
 from ..progress import stage
 from ..rows import MOTION, body_row, cases_of, filled
@@ -65,13 +65,15 @@ def of_run(store: Store, made_tables=None) -> dict:
     return {**made, **_shapes(store, rows, found)}
 
 
-def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict, refused: str = "") -> dict:
-    """The same for one case: `row` is its row of cases.parquet, `observations` what methods said about it.
+def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict, refused: str = "",
+            pieces: pd.DataFrame | None = None) -> dict:
+    """The same for one case: `row` is its row of cases.parquet, `observations` what methods said about it, `pieces` its row of
+    pieces.parquet if it has one.
 
     refused: why the checker does not accept its label, if it does not.
     """
     rows = nesting.added(filled(pd.DataFrame([row])), pd.DataFrame([body_row(b) for b in (case.query.a, case.query.b)]))
-    found = metrics.judge(observations, rows)
+    found = metrics.judge(observations, rows, pieces)
     made = {
         "mode": "case",
         "run": {"versions": versions, **({"refused": refused} if refused else {})},
@@ -196,10 +198,12 @@ def _curve(label: str, cls) -> str:
 
 
 def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
-    """labels; outcome: of each method one letter for each case ("." where there is no row); time, error, detail: sparse."""
+    """labels; outcome: of each method one letter for each case ("." where there is no row); time, error, detail: sparse.
+
+    truth, sparse: the label and whether it can tunnel, where a method is judged by pieces and not by the case."""
     place = {case: i for i, case in enumerate(rows.case)}
     labels = list(dict.fromkeys(found.method))
-    made = {"labels": labels, "outcome": [], "time": [], "error": [], "detail": [], "details": []}
+    made = {"labels": labels, "outcome": [], "time": [], "error": [], "detail": [], "details": [], "truth": []}
     known: dict[str, int] = {}
     for _, part in found.groupby(pd.Categorical(found.method, labels), observed=True):
         letters = ["."] * len(rows)
@@ -210,6 +214,8 @@ def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
         for name in ("time", "error"):
             there = part[name].notna()
             made[name].append([at[there].tolist(), part[name][there].tolist()])
+        own = part.truth == piece_truth.PIECES
+        made["truth"].append([at[own].tolist(), part.label[own].tolist(), part.can_tunnel[own].tolist()])
         said = part.detail.fillna("") != ""
         made["detail"].append([at[said].tolist(), [known.setdefault(d, len(known)) for d in part.detail[said]]])
     made["details"] = list(known)
@@ -300,7 +306,7 @@ class Shapes:
         of a mesh."""
         (method,) = registry.make(label)
         options = {**method._options()}
-        if method.in_pieces:
+        if method.decomposes:
             if not self.anew and not all(body.kind != "mesh" or kept_at(body).is_file() for body in (query.a, query.b)):
                 return None
             try:

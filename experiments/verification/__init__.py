@@ -6,7 +6,7 @@ import os
 
 from ..config import load_files
 from ..store import Store
-from . import answers, cases, files, rows
+from . import answers, cases, files, pieces, rows
 from .findings import Findings
 
 
@@ -30,6 +30,7 @@ def verify(store: Store, ask: int | None = None, trust: bool = False, workers: i
     sound = rows.check(config, frames, slots, found)
     own = config if trust else None
     cases.check(store, config, slots, sound, workers, own, found)
+    pieces.check(config, frames, sound, workers, found)
     if ask is not None:
         answers.check(config, frames, sound, ask, seed, workers, own, found)
     return found

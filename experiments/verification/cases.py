@@ -85,7 +85,7 @@ def _looked_at(name: str, slot: Slot, row: dict, bodies: dict, seed: int) -> dic
             result["names"] = names
         else:
             query = _recorded(row, bodies, result["wrong"])
-        _label(query, row, result["wrong"])
+        prove(query, row, result["wrong"])
     except Exception as error:
         words = f"{type(error).__name__}: {error}"[:200]
         result["wrong"].append(f"its row cannot be read ({words})")
@@ -163,7 +163,8 @@ def _truth(row) -> Truth:
     return Truth(*claims, certificate, bool(row["touching"]))
 
 
-def _label(query: Query, row, wrong: list[str]) -> None:
+def prove(query: Query, row, wrong: list[str]) -> None:
+    """Have the recorded truth checked, and the query labelled anew; what differs goes into wrong."""
     truth, fresh = _truth(row), label(query)
     (verdict,) = check_many([(query, truth)])
     if not verdict.ok:

@@ -9,7 +9,7 @@ import pandas as pd
 from baselines import registry
 
 from .. import config as configuration
-from .. import given, record, scenarios, timing
+from .. import given, piece_truth, record, scenarios, timing
 from ..labelling import Slot
 from ..rows import filled
 from ..store import Store
@@ -20,6 +20,8 @@ CASES = ("case", "scenario", "level", "index", "attempt", "precision", "question
          "about", "displacement_b", "axis_b", "angle_b", "about_b", "size", "faces", "tags", "label",
          "t_lo", "t_hi", "start", "end", "gap", "touching", "reason", "certificate")
 BODIES = ("body", "name", "kind", "vertices", "faces", "piece_vertices", "piece_faces")
+PIECES = ("case", "body_a", "body_b", "precision", "label", "t_lo", "t_hi", "start", "end", "gap", "touching", "reason",
+          "certificate")
 ANSWERS = ("case", "method", "status", "hit", "time", "detail")
 TIMES = ("question", "faces", "situation", "method", "case", "build_ns", "rounds_ns")
 STATUS = ("ok", "error", "timeout", "unsupported")
@@ -41,9 +43,14 @@ def read(store: Store, found: Findings) -> dict[str, pd.DataFrame] | None:
     """The tables by name, every column there; None where one cannot be used. Raises StoreError."""
     wanted = {"cases": CASES, "bodies": BODIES, "observations": ANSWERS}
     wanted |= {"timings": TIMES} if store.has("timings.parquet") else {}
+    if any(map(store.has, piece_truth.FILES)):
+        wanted |= {"pieces": PIECES, "pieces-bodies": BODIES}
     frames = {}
     for name, columns in wanted.items():
         file = f"{name}.parquet"
+        if not store.has(file) and file in piece_truth.FILES:
+            found.refuse(file, "it is missing")
+            continue
         try:
             frames[name] = store.read(file, checked=False)  # each wrong row is to be named, not the first alone
         except (OSError, ValueError, TypeError) as error:

@@ -34,6 +34,9 @@ class Tables:
     def read(self, name):
         return self.frames[name]
 
+    def has(self, name):
+        return name in self.frames
+
 
 @pytest.fixture
 def tolerant(monkeypatch):

@@ -16,10 +16,18 @@ async function readData() {
   D.method = new Map(D.labels.map((label, m) => [label, m]));
   for (const name of ["time", "error", "detail"])
     D[name] = D[name].map(([at, values]) => new Map(at.map((i, j) => [i, values[j]])));
+  D.truth = D.truth.map(
+    ([at, labels, tunnels]) => new Map(at.map((i, j) => [i, { label: labels[j], canTunnel: tunnels[j] }])),
+  );
   D.canTunnel = Array.from({ length: D.n }, (_, i) => {
     const c = D.cases;
     return c.question[i] !== "overlap" && c.label[i] === "hit" && c.start[i] === "clear" && c.end[i] === "clear";
   });
+}
+
+// What the answer of method m is judged by: the case's truth, or that of the pieces that the method put in place of a mesh.
+function truthOf(i, m) {
+  return D.truth[m]?.get(i) || { label: D.cases.label[i], canTunnel: D.canTunnel[i] };
 }
 
 const libraries = {};
@@ -69,13 +77,13 @@ const KINDS = {
   wrong: (x) => MISS.has(x) || ALARM.has(x),
   beyond: (x) => x === "m" || x === "f",
   judged: (x) => JUDGED.has(x),
-  "judged hit": (x, i) => JUDGED.has(x) && D.cases.label[i] === "hit",
+  "judged hit": (x, i, m) => JUDGED.has(x) && truthOf(i, m).label === "hit",
   asked: (x, i, m) => !(D.details[D.detail[m].get(i)] || "").startsWith("does not answer"),
-  "judged clear": (x, i) => JUDGED.has(x) && D.cases.label[i] === "clear",
-  "can tunnel": (x, i) => ANSWERED.has(x) && D.canTunnel[i],
+  "judged clear": (x, i, m) => JUDGED.has(x) && truthOf(i, m).label === "clear",
+  "can tunnel": (x, i, m) => ANSWERED.has(x) && truthOf(i, m).canTunnel,
   answered: (x) => ANSWERED.has(x),
   failed: (x) => x === "e" || x === "t",
-  tunnelled: (x, i) => MISS.has(x) && D.canTunnel[i],
+  tunnelled: (x, i, m) => MISS.has(x) && truthOf(i, m).canTunnel,
   timed: (x, i, m) => D.error[m].has(i),
   late: (x, i, m) => D.error[m].get(i) > 0,
   early: (x, i, m) => D.error[m].get(i) < 0,
@@ -203,12 +211,12 @@ function rates(m, among) {
     else if (LOST.has(x)) r.failed++;
     else {
       r.answered++;
-      if (JUDGED.has(x)) D.cases.label[i] === "hit" ? r.hits++ : r.clears++;
+      if (JUDGED.has(x)) truthOf(i, m).label === "hit" ? r.hits++ : r.clears++;
       if (MISS.has(x)) r.misses++;
       else if (ALARM.has(x)) r.alarms++;
       else if (x === "i") r.contained++;
       if (WITHIN.has(x)) r.within++;
-      if (D.canTunnel[i]) {
+      if (truthOf(i, m).canTunnel) {
         r.canTunnel++;
         if (MISS.has(x)) r.tunnelled++;
       }

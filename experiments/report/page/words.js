@@ -117,16 +117,16 @@ function ofgWords(i, label, x) {
   );
   if (x.bodies.some((b, k) => b !== D.drawn[i][k]))
     lines.push("It was asked about CoACD's pieces of the mesh, which are another body than the mesh near its surface.");
-  const letter = D.outcome[D.method.get(label)]?.[i], hit = c.label[i] === "hit";
+  const m = D.method.get(label), letter = D.outcome[m]?.[i], truth = truthOf(i, m).label, hit = truth === "hit";
   if ((letter === "r" || MISS.has(letter) || ALARM.has(letter)) && x.hit !== (letter === "r" ? hit : ALARM.has(letter)))
     lines.push("The OFG that made this page answers otherwise than the one of the run.");
   if (x.hit) {
     lines.push(
       `It answered hit${x.time !== null ? ` at t = ${number(x.time, 8)}` : ""}: ${{ start: "faces that meet at the start", end: "faces that meet at the end", "edge-face": "a virtual edge of A meets a face of B", "face-edge": "a virtual edge of B meets a face of A", "edge-edge": "a moving edge meets an edge", inside: "one body lies inside the other" }[x.found] || x.found}${x.met ? ` (face ${x.met[0]} of A, face ${x.met[1]} of B)` : ""}.`,
     );
-    if (c.label[i] === "clear")
+    if (truth === "clear")
       lines.push(c.touching[i] ? "The certificate says that the surfaces share a point and no more." : "The certificate says that nothing meets.");
-  } else if (c.label[i] === "hit") {
+  } else if (truth === "hit") {
     lines.push(x.stopped ? `It answered clear before it looked at a face: ${x.stopped}.` : "It answered clear.");
     if (x.should) {
       const [pa, pb] = x.should.places,
@@ -161,6 +161,11 @@ function ofgWords(i, label, x) {
 const ordinal = (n) =>
   `${n.toLocaleString("en")}${n % 100 > 10 && n % 100 < 14 ? "th" : ["th", "st", "nd", "rd"][n % 10] || "th"}`;
 
+function ofPieces(i, m) {
+  const own = D.truth[m].get(i);
+  return own ? el("small", {}, `judged by CoACD's pieces of the mesh: ${own.label}`) : "";
+}
+
 function verdicts(i, method) {
   const rows = D.labels
     .map((label, m) => ({
@@ -186,7 +191,7 @@ function verdicts(i, method) {
           title: "Verdict",
           left: true,
           key: (r) => rank[r.letter],
-          cell: (r) => [badge(r.letter), r.detail ? el("small", {}, r.detail) : ""],
+          cell: (r) => [badge(r.letter), r.detail ? el("small", {}, r.detail) : "", ofPieces(i, r.m)],
         },
         sweep && { title: "Time", key: (r) => r.time, cell: (r) => (r.time === undefined ? "–" : number(r.time, 6)) },
         sweep && {

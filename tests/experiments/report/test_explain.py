@@ -107,3 +107,15 @@ def test_a_file_keeps_both_motions(tmp_path):
     back = explain.from_file(tmp_path / "case.json").case.query
     assert explain.motion_words(back.motion) == explain.motion_words(query.motion)
     assert explain.motion_words(back.motion_b) == explain.motion_words(query.motion_b)
+
+
+def test_pieces_of_a_wrong_form_are_refused_by_their_field(run, tmp_path):
+    name = run.read("pieces.parquet").case.iloc[0]
+    explain.save(explain.from_run(run, name), tmp_path / "case.json")
+    content = json.loads((tmp_path / "case.json").read_text())
+    row = content["pieces"][0]
+    for wrong in (row, [1], [{**row, "label": "maybe"}], [{**row, "case": "x/1/0000"}], [{"case": name}], [row, row],
+                  [{**row, "touching": None}], [{**row, "gap": "far"}]):
+        (tmp_path / "wrong.json").write_text(json.dumps({**content, "pieces": wrong}))
+        with pytest.raises(ConfigError, match="pieces"):
+            explain.from_file(tmp_path / "wrong.json")
