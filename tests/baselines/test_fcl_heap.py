@@ -1,4 +1,4 @@
-"""The memory that FCL reads before anything has written it: set, it is all that an answer hangs on."""
+"""FCL reads memory that nothing has written; set before each call, it leaves no trace of others."""
 
 import os
 import subprocess
@@ -22,7 +22,7 @@ def answer(spec, query):
 
 
 def test_fcl_answers_the_same_beside_any_other_method():
-    """Its turns read memory that nothing wrote: unset, an answer hung on the methods asked before."""
+    """Unset, that memory made an answer hang on the methods that were asked before."""
     others = [f"{name}-substeps" for name in ("fcl-convex", "bullet", "parry")
               if not registry.available(registry.methods()[name])]
     orders = [*LINEAR, *others], [*others, *reversed(LINEAR)]
@@ -35,7 +35,7 @@ def test_fcl_answers_the_same_beside_any_other_method():
 
 @pytest.mark.parametrize("heap", fcl.HEAP)
 def test_fcl_answers_as_in_a_process_whose_whole_heap_is_set(heap):
-    """Of all that FCL reads unset, only the motions rule its answers; glibc writes perturb ^ 0xFF."""
+    """Of all that FCL reads unset, the motions alone matter. glibc writes perturb ^ 0xFF."""
     program = f"""
 import sys
 from baselines import fcl
@@ -46,7 +46,7 @@ from test_fcl_heap import NAMES, TURNS, answer
 print([answer(f"{{name}} heap={heap}", query) for query in TURNS for name in NAMES])
 """
     tunables = f"glibc.malloc.tcache_count=0:glibc.malloc.perturb={fcl.HEAP[heap] ^ 0xFF}"
-    said = [subprocess.run([sys.executable, "-c", program, which], capture_output=True, text=True, check=True,
-                           env={**os.environ, **set_}).stdout
+    said = [subprocess.run([sys.executable, "-c", program, which], capture_output=True,
+                           text=True, check=True, env={**os.environ, **set_}).stdout
             for which, set_ in (("blocks", {}), ("whole", {"GLIBC_TUNABLES": tunables}))]
     assert said[0] == said[1] and "True" in said[0]
