@@ -74,11 +74,9 @@ class Drake(Discrete):
 
 
 class DrakeExact(Normalised, Drake):
-    # Without, 13 false hits on 421 certified cases (8 of them on bodies of 1e-6); in these units none, at gaps down to 1e-16 of the size.
-    length = 32.0
     name = "drake-exact"
     configuration = "best effort"
-    guarantee = "GJK (FCL with libccd) in doubles, bodies of radius 32 at the origin"
+    guarantee = "GJK (FCL with libccd) in doubles, in the unit of units.csv, at the origin"
 
 
 class DrakeExactSubsteps(Substeps, DrakeExact):

@@ -107,13 +107,10 @@ class FclConvex(_Convex, _Overlap):
 
 
 class FclConvexExact(Normalised, FclConvex):
-    # Of 421 certified overlaps (seven families) fcl-convex gets 15 wrong, 8 of them on bodies of 1e-6, GST_INDEP 65. In units in which
-    # the smaller body has the radius 32 libccd gets none wrong, down to gaps of 1e-16 of the size; with radius 1 it has 6 false hits.
-    # Faces that a tilt of 1e-7 to 1e-9 wedges into each other are still missed: 39 of 62 hits (near_parallel).
-    length = 32.0
+    # Faces that a tilt of 1e-7 to 1e-9 wedges into each other are missed all the same: 13 of 62 hits (near_parallel).
     name = "fcl-convex-exact"
     configuration = "best effort"
-    guarantee = "GJK (libccd) in doubles, bodies of radius 32 at the origin"
+    guarantee = "GJK (libccd) in doubles, in the unit of units.csv, at the origin"
 
 
 class FclConvexExactSubsteps(Substeps, FclConvexExact):
@@ -254,8 +251,8 @@ class _Linear(_Continuous):
     heap: the bytes that it finds there. "zero" is the body's origin, which FCL documents; "filled" is
     HEAP's other byte. In a process without this parameter it is whatever was freed before. Both give
     the answers of a process whose whole heap holds that byte, verdict for verdict and time for time.
-    Of the 2,789 sweeps of the standard run with up to 400 faces, fcl-advancement-convex path=trans misses 86
-    with "zero" and 252 with "filled", and calls 49 and 308 clear ones a hit.
+    Of the 2,789 sweeps of the standard run with up to 400 faces, fcl-advancement-convex path=trans misses
+    87 with "zero" and 253 with "filled", and calls 48 and 307 clear ones a hit.
     """
 
     configuration = "best effort"
@@ -292,11 +289,11 @@ class _Advancement(_Linear):
         return {"num_max_iterations": 1000, "toc_err": self.parameters["toc_err"]}
 
 
-class FclAdvancementConvex(_Convex, _Advancement):
+class FclAdvancementConvex(Normalised, _Convex, _Advancement):
     name = "fcl-advancement-convex"
 
 
-class FclAdvancementMesh(_Mesh, _Advancement):
+class FclAdvancementMesh(Normalised, _Mesh, _Advancement):
     name = "fcl-advancement-mesh"
 
 
@@ -318,11 +315,11 @@ class _Naive(_Linear):
         return 1 / (self.parameters["iterations"] - 1)
 
 
-class FclNaiveConvex(_Convex, _Naive):
+class FclNaiveConvex(Normalised, _Convex, _Naive):
     name = "fcl-naive-convex"
 
 
-class FclNaiveMesh(_Mesh, _Naive):
+class FclNaiveMesh(Normalised, _Mesh, _Naive):
     name = "fcl-naive-mesh"
 
 

@@ -116,7 +116,7 @@ class MujocoCoacdSubsteps(Substeps, MujocoCoacd):
     guarantee = "mujoco-coacd at n poses; blind between them"
 
 
-class MujocoSpeculative(Method):
+class MujocoSpeculative(Normalised, Method):
     """The sweep of mjENBL_SPECULATIVE over one step, with the time of impact recovered from the contact it makes.
 
     MuJoCo sweeps only geoms that travel farther than their smallest half-extent; slower ones are left to the discrete test of the end
@@ -142,7 +142,7 @@ class MujocoSpeculative(Method):
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
-        query = normalised(query, 1.0)
+        query = normalised(query, self.length)
         mujoco = _mujoco()
         spec = mujoco.MjSpec()
         spec.option.timestep = 1

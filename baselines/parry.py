@@ -92,7 +92,7 @@ class _Batch(Substeps):
 class ParryExact(Normalised, Parry):
     name = "parry-exact"
     configuration = "best effort"
-    guarantee = "GJK in doubles, bodies of unit size at the origin"
+    guarantee = "GJK in doubles, in the unit of units.csv, at the origin"
 
 
 class ParryExactSubsteps(_Batch, ParryExact):

@@ -79,7 +79,7 @@ class Rapier(_Hull, _Overlap):
 class RapierExact(Normalised, Rapier):
     name = "rapier-exact"
     configuration = "best effort"
-    guarantee = "GJK in float32, bodies of unit size at the origin"
+    guarantee = "GJK in float32, in the unit of units.csv, at the origin"
 
 
 class RapierExactSubsteps(Substeps, RapierExact):

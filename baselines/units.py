@@ -1,27 +1,54 @@
 """Best effort, part one: the units and the origin that suit an engine.
 
-Engines have absolute tolerances and margins, and lose digits far from the origin. A careful user measures in units in which his bodies are
-about 1 and puts the origin beside them; so do the methods below. Both cost no accuracy: units are powers of two, and the origin is B's
-position, subtracted in double.
+Engines have absolute tolerances and margins, and lose digits far from the origin. A careful user
+measures in units that suit the engine and puts the origin beside the bodies; so do the methods below.
+Both cost no accuracy: units are powers of two, and the origin is B's position, subtracted in double.
+Which unit suits an engine is counted by `experiments/tuning.py`, on cases that no run counts.
 """
 
 from __future__ import annotations
 
+import csv
 import math
 from dataclasses import replace
-from functools import lru_cache
-from typing import Callable, ClassVar
+from functools import cache, lru_cache
+from pathlib import Path
+from typing import Callable
 
 from ofg import Body, Pose, Query
 
 from .contract import Tolerance, Verdict
+
+TABLE = Path(__file__).with_name("units.csv")  #: counts of wrong answers by method and unit
+
+
+def best(rows: list[dict[str, str]]) -> float:
+    """The unit of the row with the fewest wrong, then fewest unanswered, then the nearest to 1."""
+    key = {float(r["unit"]): (int(r["wrong"]), int(r["unanswered"])) for r in rows}
+    return min(key, key=lambda unit: (*key[unit], abs(math.log2(unit))))
+
+
+@cache
+def tuned() -> dict[str, float]:
+    """method -> its unit, by the counts of TABLE."""
+    with TABLE.open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    names = dict.fromkeys(row["method"] for row in rows)
+    return {name: best([row for row in rows if row["method"] == name]) for name in names}
 
 
 class Normalised:
     """Put this before a method: `class FclExact(Normalised, FclConvex)`. Its tolerance in length
     is in its own units: at most so large a share of the size of the larger body, which is what is declared."""
 
-    length: ClassVar[float] = 1.0  #: the radius that the smaller body gets, within a factor of sqrt(2)
+    @property
+    def length(self) -> float:
+        """The radius that the smaller body gets, within a factor of sqrt(2).
+
+        As tuned for the method, or for the one that it is derived from; 1 where none is.
+        """
+        names = (cls.__dict__.get("name") for cls in type(self).__mro__)
+        return next((tuned()[name] for name in names if name in tuned()), 1.0)
 
     @property
     def tolerance(self) -> Tolerance:

@@ -16,6 +16,7 @@ from . import manifest
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("ofg", "baselines", "experiments")
 NATIVE = ("ofg._core", "experiments.truth._native")
+CODE = (".py", ".csv")  # of baselines: units.csv, by which methods answer
 READERS = ("report", "findings")  # parts of `experiments` that only read finished runs
 
 
@@ -29,8 +30,9 @@ def facts(engine: str | None = None) -> dict:
 def code() -> str:
     """A digest of the project's own code, Python and compiled: the same for the same code only."""
     found = hashlib.sha256()
-    paths = [p for name in PACKAGES for p in sorted((ROOT / name).rglob("*.py"))
-             if not (name == "experiments" and p.relative_to(ROOT / name).parts[0] in READERS)]
+    paths = [p for name in PACKAGES for p in sorted((ROOT / name).rglob("*"))
+             if p.suffix in CODE
+             and not (name == "experiments" and p.relative_to(ROOT / name).parts[0] in READERS)]
     for path in [*paths, *(Path(importlib.util.find_spec(name).origin) for name in NATIVE)]:
         content = hashlib.sha256(path.read_bytes()).hexdigest()
         found.update(f"{path.name} {content}\n".encode())

@@ -21,6 +21,7 @@ CONFIG = RunConfig(
         "bullet-coacd",
         "fcl-convex-substeps n=1,4",
         "fcl-ccd-mesh",
+        "fcl-naive-mesh",
     ],
     tables=[
         {"name": "by-level", "title": "Wrong by level.", "value": "wrong"},

@@ -151,7 +151,7 @@ def test_filters_narrow_every_figure(open_page, written, found):
     page.select_option("[data-name=Up]", "misses")
     until(page, "document.querySelector('#plot').layout.yaxis.title.text.startsWith('misses')")
     choose(page, "motion")
-    until(page, "document.querySelector('#plot').data.flatMap((t) => t.customdata || []).includes('fcl-ccd-mesh')")
+    until(page, "document.querySelector('#plot').data.flatMap((t) => t.customdata || []).includes('fcl-naive-mesh iterations=10')")
 
 
 def test_every_cell_by_difficulty_leads_to_its_cases(open_page, written):
