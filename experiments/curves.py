@@ -11,7 +11,7 @@ import pandas as pd
 
 from baselines import registry
 
-from . import scenarios
+from . import piece_truth, scenarios
 from .figures import COLOURS, GRAIN, MARKERS, drawn
 from .store import Store
 from .tables import COUNTS, Table
@@ -59,7 +59,8 @@ def panels(methods: list[str]) -> list[tuple[str, list[str]]]:
     known, own = registry.methods(), {}
     for label in methods:
         name = label.split()[0]
-        own.setdefault(known[name].engine if name in known else name, []).append(label)
+        engine = "no engine" if label == piece_truth.NAME else known[name].engine if name in known else name
+        own.setdefault(engine, []).append(label)
     return [(engine, labels[i:i + PER_PANEL]) for engine, labels in own.items() for i in range(0, len(labels), PER_PANEL)]
 
 

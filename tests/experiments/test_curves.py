@@ -74,3 +74,7 @@ def test_names_are_moved_apart_in_their_order(heights):
     placed = curves.apart(heights, 0.1)
     order = np.argsort(heights, kind="stable")
     assert (np.diff(np.array(placed)[order]) >= 0.1 - 1e-9).all() and 0 <= min(placed) and max(placed) <= 1 + 1e-9
+
+
+def test_the_pieces_own_error_is_drawn_as_no_engine():
+    assert curves.panels(["bullet-coacd", "CoACD pieces"]) == [("pybullet", ["bullet-coacd"]), ("no engine", ["CoACD pieces"])]

@@ -12,6 +12,7 @@ import ofg
 from experiments import compare as comparing
 from experiments import metrics, piece_truth, rows, runner, tables
 from experiments.config import RunConfig
+from experiments.record import RecordError
 from experiments.store import Store
 from experiments.truth import check_many, label
 from experiments.verification import verify
@@ -252,3 +253,12 @@ def test_a_reference_keeps_the_truth_of_the_pieces(folder, tmp_path):
     turned(pieces)
     kept.write(pieces, "pieces.parquet")
     assert set(comparing.compare(kept, Store(folder)).answers.method) == ON_PIECES
+
+
+def test_pieces_that_lack_a_column_are_refused_in_a_sentence(folder, tmp_path):
+    """Columns that older cases.parquet may lack were excused here too: KeyError."""
+    for column in Store(folder).read("pieces.parquet").columns:
+        store = Store(tmp_path / column)
+        store.write(Store(folder).read("pieces.parquet").drop(columns=column), "pieces.parquet")
+        with pytest.raises(RecordError, match=f"pieces.parquet.*lacks the column '{column}'"):
+            piece_truth.read(store)

@@ -89,6 +89,7 @@ def test_malformed_cases(tmp_path):
         assert ": certified" not in result["out"], result
 
 
+@pytest.mark.timeout(900)  # hundreds of commands; each verify decomposes and proves pieces too
 def test_malformed_runs(run, tmp_path):
     """`verify`, `tables`, `report`, `figures`, `explain`, `compare` and `findings` on runs with one file changed."""
     folders = strangers.runs(tmp_path / "runs", run)
