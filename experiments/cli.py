@@ -111,6 +111,7 @@ def reproduce(
         console.print("[bold]and sizes: misses and operations by size, depth and k[/]")
         sizes.run(into / "sizes")
     findings(into, into / "README.md")
+    findings(into, objections=into / "OBJECTIONS.md")
     console.print(f"All of it is in {markup(into)}: tables, figures, report.html, manifest.json and the rows of each run.")
 
 
@@ -118,6 +119,7 @@ def reproduce(
 def findings(
     results: Annotated[Path, typer.Argument(help="folder of run folders, as reproduce makes it")] = Path("results"),
     into: Annotated[Optional[Path], typer.Option(help="write the page here [default: print it]")] = None,
+    objections: Annotated[Optional[Path], typer.Option(help="write the page of objections and answers here, and no findings")] = None,
 ) -> None:
     """Say what the runs of a folder found: each claim of the article with its verdict, then each engine. What is missing is said to be."""
     from . import findings as found
@@ -125,12 +127,13 @@ def findings(
     if not results.is_dir():
         raise configuration.ConfigError(f"The folder {results} does not exist. Name the one that ofg-bench reproduce made.")
     with reading(results):
-        page = found.page(results)
+        page = found.page(results) if objections is None else found.objections.page(found.Runs(results))
+    into = into or objections
     if into is None:
         print(page, end="")
         return
     into.write_text(page)
-    console.print(f"The findings are in {markup(into)}.")
+    console.print(f"The page is {markup(into)}.")
 
 
 @app.command()

@@ -28,7 +28,7 @@ from .progress import stage
 from .truth import label_many
 
 SEED = 71  #: of no preset and no experiment
-UNITS = (1.0, 4.0, 32.0, 256.0, 1024.0)
+UNITS = (1.0, 4.0, 32.0, 256.0, 1024.0, 2.0**15, 2.0**18)
 CASES = {"overlap": 20, "translation": 4, "motion": 4}  #: a level
 FACES = 1000
 

@@ -55,14 +55,14 @@ def main(words: list[str] | None = None) -> int:
     if not names:
         print(f"No fault is called so. There are: {', '.join(EVERY)}.", file=sys.stderr)
         return 2
-    place = Path(tempfile.mkdtemp(prefix="ofg-drill-"))
+    place, tally = Path(tempfile.mkdtemp(prefix="ofg-drill-")), Tally()
     try:
-        tally = _drill(chosen, names, place)
+        _drill(chosen, names, place, tally)
     except measure.Undrillable as error:
         print(error, file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("Interrupted: nothing is left of the drill.", file=sys.stderr)
+        print(f"{tally.text()}\n\nInterrupted: the table holds what was tried until then.")
         return 130
     finally:
         shutil.rmtree(place, ignore_errors=True)
@@ -119,8 +119,9 @@ def _title(chosen) -> str:
     return f"`{command}`: final files of accuracy against the undisturbed run."
 
 
-def _drill(chosen, names: list[str], place: Path) -> Tally:
-    tally, tries = Tally(), []
+def _drill(chosen, names: list[str], place: Path, tally: Tally) -> None:
+    """Fill the tally, try by try."""
+    tries = []
     program = tuple(chosen.program)
     wanted = [f for f in FAULTS if f.name in names]
     if wanted:
@@ -143,7 +144,6 @@ def _drill(chosen, names: list[str], place: Path) -> Tally:
                     words = f"failed: {one.fault}, {what}: {outcome.why}"
                     print(words, file=sys.stderr, flush=True)
             advance(one.weight)
-    return tally
 
 
 def _all(tries: list[Try], place: Path, jobs: int):
