@@ -105,10 +105,12 @@ def turns(runs: Runs):
 def fronts(runs: Runs):
     """Before: only who answers all cases may be on the front. After: all compete on the common cases."""
     points, rows = figures.joined(Store(runs.folder / runs.board)), []
+    found = runs.answers(runs.board)
+    overlap = found[found.question == "overlap"]
     for method in ("fcl-convex-exact", "fcl-mesh", "ofg k=8 repairs=all"):
         part = points[(points.method == method) & (points.question == "overlap")]
         if len(part):
-            whole = (part.answered == part.asked).any()
+            whole = (overlap[overlap.method == method].status == "ok").all()
             rows.append((f"{method}, overlap: panels where it is on the front", "may be on it" if whole else "never: it does not answer all",
                          _of(part.front.sum(), len(part))))
     return rows
