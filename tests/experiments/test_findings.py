@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from baselines import registry
-from experiments import config, metrics, scenarios, sizes
+from experiments import config, metrics, piece_truth, scenarios, sizes
 from experiments.findings import ends
 from experiments.findings import page as page_of
 from experiments.findings.claims import CLAIMS, finding
@@ -514,7 +514,7 @@ def test_its_engine_tables_are_the_accuracy_tables(page):
         if not csv.exists():
             pytest.skip("no run has every family")
         for row in pd.read_csv(csv).itertuples():
-            if row.answered:
+            if row.answered and row.method != piece_truth.NAME:  # no engine
                 cell = str(Rate(row.misses, row.hits, row.miss_low, row.miss_high))
                 assert any(line.startswith(f"| {row.method} |") and cell in line for line in page.splitlines()), (
                     row.method,
