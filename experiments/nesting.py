@@ -9,7 +9,7 @@ import pandas as pd
 
 from ofg import Motion, Pose
 
-from .rows import filled
+from .rows import filled, named
 from .store import Store
 
 #: Least depth inside a plane, as a share of the lengths that it was computed from: some 4,000 rounding errors of a double.
@@ -37,7 +37,12 @@ def added(cases: pd.DataFrame, bodies: pd.DataFrame) -> pd.DataFrame:
     """
     rows = {row.body: row for row in bodies.itertuples()}
     kinds = {name: row.kind for name, row in rows.items()}
-    solids = {name: _Solid(row) for name, row in rows.items()}
+    solids = {}
+    for row in bodies.itertuples():
+        with named("bodies.parquet", row.Index, row.body):
+            solids[row.body] = _Solid(row)
+    if unknown := sorted({*cases.body_a, *cases.body_b} - rows.keys()):
+        raise ValueError(f"bodies.parquet has no body {unknown[0]}, which cases.parquet names. Take the run anew from where it was made, or make it again.")
     kind = [_kind(kinds[a], kinds[b]) for a, b in zip(cases.body_a, cases.body_b)]
     nested = [row.label == "hit" and row.question != "motion" and _nested(row, solids) for row in filled(cases).itertuples()]
     return cases.assign(kind=kind, nested=nested)
@@ -52,6 +57,9 @@ class _Solid:
 
     def __init__(self, row):
         self.vertices = np.reshape(row.vertices, (-1, 3))
+        self.faces = np.reshape(row.faces, (-1, 3))
+        if not 0 <= self.faces.min() <= self.faces.max() < len(self.vertices) or np.sum(row.piece_faces) != len(self.faces):
+            raise ValueError("its faces are not of its vertices, or its pieces not of its faces.")
         self.row, self.radius = row, np.linalg.norm(self.vertices, axis=1).max()
         self._planes = None
 
@@ -60,8 +68,7 @@ class _Solid:
         """Of each convex piece: (m, 3) normals of any length, (m, 3) points on the planes, (m,) products of edges."""
         if self._planes is None:
             first = np.concatenate([[0], np.cumsum(self.row.piece_faces)])
-            faces = np.reshape(self.row.faces, (-1, 3))
-            self._planes = [_planes(self.vertices[faces[i:j]]) for i, j in zip(first, first[1:])]
+            self._planes = [_planes(self.vertices[self.faces[i:j]]) for i, j in zip(first, first[1:])]
         return self._planes
 
 

@@ -107,10 +107,10 @@ def cases_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> Iterable[tuple[Case, 
     """
     made = {}
     for row in bodies.itertuples():
-        with _named("bodies.parquet", row.Index, row.body):
+        with named("bodies.parquet", row.Index, row.body):
             made[row.body] = body_of(row)
     for row in filled(cases).itertuples():
-        with _named("cases.parquet", row.Index, row.case):
+        with named("cases.parquet", row.Index, row.case):
             for digest in (row.body_a, row.body_b):
                 if digest not in made:
                     raise ValueError(f"bodies.parquet has no body {digest}")
@@ -128,7 +128,7 @@ def _case(row, made) -> tuple[Case, Truth]:
 
 
 @contextmanager
-def _named(file: str, index, name: str) -> Iterator[None]:
+def named(file: str, index, name: str) -> Iterator[None]:
     """Errors of a row as RowError."""
     try:
         yield
