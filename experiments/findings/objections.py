@@ -104,8 +104,8 @@ def turns(runs: Runs):
 
 def fronts(runs: Runs):
     """Before: only who answers all cases may be on the front. After: all compete on the common cases."""
-    points, rows = figures.joined(Store(runs.folder / runs.board)), []
     found = runs.answers(runs.board)
+    points, rows = figures.joined(Store(runs.folder / runs.board)), []
     overlap = found[found.question == "overlap"]
     for method in ("fcl-convex-exact", "fcl-mesh", "ofg k=8 repairs=all"):
         part = points[(points.method == method) & (points.question == "overlap")]
@@ -139,6 +139,8 @@ def casts(runs: Runs):
 
 def situations(runs: Runs):
     folder = runs.folder / "faces" / "tables"
+    if not folder.is_dir():
+        raise Missing("run faces is not finished")
     names = sorted(p.stem for p in folder.glob("faces-*.csv"))
     split = [n for n in names if n.rsplit("-", 1)[-1] in ("deep", "near", "apart", "hit", "clear")]
     return [("tables of time of the experiment faces", "one, all situations together", f"{len(split)}: {', '.join(split)}")]

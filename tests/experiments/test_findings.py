@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from baselines import registry
 from experiments import config, metrics, piece_truth, scenarios, sizes
-from experiments.findings import ends
+from experiments.findings import ends, objections
 from experiments.findings import page as page_of
 from experiments.findings.claims import CLAIMS, finding
 from experiments.findings.engines import QUESTIONS
@@ -520,3 +520,16 @@ def test_its_engine_tables_are_the_accuracy_tables(page):
                     row.method,
                     cell,
                 )
+
+
+def test_the_committed_objections_are_what_the_committed_runs_make():
+    assert (RESULTS / "OBJECTIONS.md").read_text() == objections.page(Runs(RESULTS))
+
+
+def test_each_of_the_ten_objections_is_measured():
+    page = objections.page(Runs(RESULTS))
+    assert len(objections.OBJECTIONS) == 10 and page.count("Command: `") == 10 and "not measured" not in page
+
+
+def test_an_objection_without_its_run_says_so(tmp_path):
+    assert "not measured" in objections.page(Runs(tmp_path))
