@@ -80,6 +80,13 @@ class Running:
             time.sleep(0.005)
         return not self.over
 
+    def runner(self) -> list[psutil.Process]:
+        """Its first process; [] if it has ended."""
+        try:
+            return [psutil.Process(self.process.pid)]
+        except psutil.NoSuchProcess:  # poll() buries it between two looks
+            return []
+
     def below(self, role: str) -> list[psutil.Process]:
         return kin.below(self.process.pid, role)
 

@@ -91,9 +91,9 @@ def stopped(role: str | None) -> Strike:
         if role:
             struck = _at_one(running, role, attempt, random, "suspend")
         else:
-            alive = running.reach(random.uniform(0.02, attempt.bench.seconds))
-            chosen = running.everything() if role is None else [psutil.Process(running.process.pid)]
-            struck = [p for p in chosen if kin.send(p, "suspend")] if alive else []
+            running.reach(random.uniform(0.02, attempt.bench.seconds))
+            chosen = running.everything() if role is None else running.runner()
+            struck = [p for p in chosen if kin.send(p, "suspend")]
         if struck:
             running.reach(running.age + PAUSE)
             for process in struck:

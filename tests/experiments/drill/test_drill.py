@@ -141,3 +141,11 @@ def test_the_command_says_what_failed(tmp_path, capsys, monkeypatch):
     assert "| kill -9 of a worker" in (tmp_path / "drill.md").read_text()
     assert drill.main([*words, *program, "again"]) == 0
     assert drill.main(["--only", "no such fault"]) == 2
+
+
+def test_a_runner_that_has_ended_is_no_process(tmp_path):
+    """The drill ended with NoSuchProcess where a run was over at the drawn moment."""
+    running = command.Running([sys.executable, "-c", ""], tmp_path, tmp_path)
+    assert [p.pid for p in running.runner()] in ([running.process.pid], [])
+    running.finish(30.0)
+    assert running.runner() == []
