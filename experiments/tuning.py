@@ -4,7 +4,8 @@ Engines have absolute tolerances, so the unit is a setting of theirs, and best e
 rule was written before the counts: over all families, on a seed that no run uses, the unit with the
 fewest wrong answers, then the fewest unanswered, then the nearest to 1 (`baselines.units.best`).
 Every method that is `Normalised` is asked in each of UNITS; its substeps take its unit. Uncertain
-cases are left out, and bodies of more than FACES faces, whose size and not whose unit is at issue.
+cases are left out, and touching ones, where neither answer is wrong; and bodies of more than FACES
+faces, whose size and not whose unit is at issue.
 The counts are written beside `baselines/units.py`, which reads the unit from them.
 """
 
@@ -49,7 +50,7 @@ def cases() -> list[tuple[Case, str]]:
              if max(len(case.query.a.faces), len(case.query.b.faces)) <= FACES]
     truths = label_many([case.query for _, case in small])
     return [(case, truth.label) for (family, case), truth in zip(small, truths)
-            if truth.label != "uncertain" and not family.useless(truth)]
+            if truth.label != "uncertain" and not truth.touching and not family.useless(truth)]
 
 
 def counts(names: list[str], workers: int) -> pd.DataFrame:
