@@ -68,7 +68,7 @@ class BulletNoMargin(Normalised, Bullet):
 
     name = "bullet-no-margin"
     configuration = "best effort"
-    tolerance = Tolerance()
+    own_tolerance = Tolerance()  # the margins are subtracted
     threshold = -2 * MARGIN
     guarantee = "GJK/EPA in doubles on hulls grown by 0.001 each, the growth subtracted from the distance"
 

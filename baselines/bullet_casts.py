@@ -73,7 +73,7 @@ class _Exact(Normalised):
     """No margin, the unit of units.csv, and the start tested first."""
 
     configuration = "best effort"
-    tolerance = Tolerance()
+    own_tolerance = Tolerance()
     hull_margin = 0.0
 
     @property
@@ -111,6 +111,7 @@ class BulletGjkCastExact(_Exact, BulletGjkCast):
 
     name = "bullet-gjk-cast-exact"
     hull_margin = 0.001
+    own_tolerance = Tolerance(2 * hull_margin + NEAR, sides="alarms")
     guarantee = "btGjkConvexCast on hulls grown by 0.001 of its unit, the start tested by GJK/EPA"
 
 
@@ -133,6 +134,7 @@ class BulletContinuousCastExact(_Exact, BulletContinuousCast):
     """
 
     name = "bullet-continuous-cast-exact"
+    own_tolerance = Tolerance(NEAR, sides="alarms")
     halvings = 20
     guarantee = ("btContinuousConvexCollision without margins, turns in legs of 45 degrees, "
                  "the start tested by GJK/EPA")

@@ -69,10 +69,7 @@ class CoalConvexExact(Normalised, CoalConvex):
     name = "coal-convex-exact"
     configuration = "best effort"
     guarantee = "GJK/EPA in doubles, tolerance 1e-12"
-
-    @property
-    def tolerance(self) -> Tolerance:
-        return Tolerance(relative=1e-12 / self.length)
+    own_tolerance = Tolerance(1e-12)
 
     def ask_pair(self, coal, a, b) -> Callable:
         collide, result = coal.ComputeCollision(a, b), coal.CollisionResult()

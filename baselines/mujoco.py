@@ -77,10 +77,7 @@ class MujocoExact(Normalised, Mujoco):
     name = "mujoco-exact"
     configuration = "best effort"
     guarantee = "GJK/EPA in doubles on vertices stored as float32; ccd_tolerance 1e-12, 1000 iterations"
-
-    @property
-    def tolerance(self) -> Tolerance:
-        return Tolerance(relative=1e-12 / self.length)
+    own_tolerance = Tolerance(1e-12)
 
     def options(self, mujoco, spec) -> None:
         spec.option.ccd_tolerance = 1e-12

@@ -13,7 +13,7 @@ import numpy as np
 
 from ofg import Body, Pose, Query
 
-from .contract import MissingEngine, Unsupported, Verdict
+from .contract import MissingEngine, Tolerance, Unsupported, Verdict
 from .sampling import Discrete, Substeps
 from .units import Normalised
 
@@ -38,6 +38,7 @@ class Parry(Discrete):
     bodies = frozenset({"convex", "union"})
     solid = True
     places_b = True
+    tolerance = Tolerance(10 * 2.0**-52)  # eps_tol() of its GJK: ten machine epsilons
     guarantee = "GJK in doubles"
 
     def shapes(self, body: Body) -> list:

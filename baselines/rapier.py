@@ -14,9 +14,11 @@ import numpy as np
 
 from ofg import Body, Pose, Query
 
-from .contract import Method, MissingEngine, Verdict
+from .contract import Method, MissingEngine, Tolerance, Verdict
 from .sampling import Discrete, Substeps
 from .units import Normalised
+
+GJK = Tolerance(10 * 2.0**-23)  #: eps_tol() of its GJK: ten machine epsilons of float32
 
 
 def _rapier():
@@ -53,6 +55,7 @@ class _Overlap(Discrete):
     """QueryPipeline.intersect_shape of A against a world that holds B."""
 
     configuration = "default"
+    tolerance = GJK
 
     def build(self, query: Query):
         shape, world = self.shape(query.a), _world(self.shape(query.b), query.pose_b)
@@ -112,6 +115,7 @@ class _Cast(Method):
     questions = frozenset({"translation", "motion"})
     gives_time = True
     configuration = "default"
+    tolerance = GJK
     legs = 1
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:

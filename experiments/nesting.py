@@ -93,12 +93,14 @@ def _within(inner: _Solid, outer: _Solid, poses: list[tuple[Pose, Pose]]) -> boo
     """Every vertex of the inner inside one piece of the outer at all these poses, and on one side of each other piece's surface."""
     if outer.row.kind == "mesh" or inner.radius > 2 * outer.radius:
         return False
-    seen = [((inner.vertices @ p.rotation.T + (p.position - q.position)) @ q.rotation,
-             np.abs(p.position).max() + np.abs(q.position).max() + inner.radius + outer.radius) for p, q in poses]
-    if not any(np.all(n @ seen[0][0][0] < np.einsum("ij,ij->i", n, on)) for n, on, _ in outer.pieces):
+    reach = max(np.abs(p.position).max() + np.abs(q.position).max() for p, q in poses) + inner.radius + outer.radius
+    # The points of both ends at once: a point on the way is on the side of a plane on which it is at both ends, so
+    # that one plane has to hold for all of them.
+    points = np.concatenate([(inner.vertices @ p.rotation.T + (p.position - q.position)) @ q.rotation for p, q in poses])
+    if not any(np.all(n @ points[0] < np.einsum("ij,ij->i", n, on)) for n, on, _ in outer.pieces):
         return False
-    sides = [[_side(points, reach, piece) for points, reach in seen] for piece in outer.pieces]
-    return all(len(set(side)) == 1 and side[0] for side in sides) and any(side[0] == "inside" for side in sides)
+    sides = [_side(points, reach, piece) for piece in outer.pieces]
+    return all(sides) and "inside" in sides
 
 
 def _side(points: np.ndarray, reach: float, piece) -> str:

@@ -87,11 +87,19 @@ def with_pieces(store: Store, found: pd.DataFrame) -> pd.DataFrame:
 
 
 def _path(cases: pd.DataFrame) -> np.ndarray:
-    """(n,) bounds of how far a point of one body goes as the other sees it: displacement plus angle times size."""
+    """(n,) upper bounds of how far a point of one body goes as the other sees it, length.
+
+    Displacement, plus for each body its angle times how far a point of either body can lie from the
+    axis: the size, and the distance of the point `about` which it turns from the body's origin.
+    """
     if "displacement" not in cases:
         return np.zeros(len(cases))
     gone = np.stack(cases.displacement.to_list()) - np.stack(cases.displacement_b.to_list())
-    return np.linalg.norm(gone, axis=1) + (cases.angle.abs() + cases.angle_b.abs()).to_numpy() * cases["size"].to_numpy()
+    made = np.linalg.norm(gone, axis=1)
+    for side in ("", "_b"):
+        lever = np.linalg.norm(np.stack(cases[f"about{side}"].to_list()), axis=1)
+        made += cases[f"angle{side}"].abs().to_numpy() * (cases["size"].to_numpy() + lever)
+    return made
 
 
 def _tolerances(table: pd.DataFrame, methods: dict[str, tuple[bool, Tolerance]]) -> pd.Series:

@@ -3,11 +3,16 @@
 import numpy as np
 import pandas as pd
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from baselines import registry
+from baselines.conformance import box
 from baselines.tolerance import Tolerance
-from experiments import metrics, outcome
+from experiments import metrics, outcome, rows
+from experiments.case import Case
+from experiments.truth.label import Truth
+from ofg import Motion, Pose, Query
 
 nan = np.nan
 
@@ -176,3 +181,28 @@ def test_a_tolerance_is_a_sum_and_grows_with_what_it_is_of(length, relative, ste
 def test_what_is_no_tolerance_is_refused(wrong):
     with pytest.raises(ValueError, match="no tolerance"):
         Tolerance(**wrong)
+
+
+@pytest.mark.parametrize("name, length", [("coal-convex-exact", 1e-12), ("mujoco-exact", 1e-12), ("parry-exact", 10 * 2.0**-52),
+                                          ("rapier-exact", 10 * 2.0**-23), ("bullet-no-margin", 0.0), ("bullet-gjk-cast-exact", 0.003),
+                                          ("bullet-continuous-cast-exact", 0.001), ("fcl-convex-exact", 1e-6)])
+def test_a_tolerance_of_best_effort_is_in_its_own_unit(name, length):
+    """One that was in the query's unit credited an engine with errors a thousand times what it declares."""
+    (method,) = registry.make(name)
+    assert method.tolerance.length == 0
+    assert method.tolerance.relative * method.length == pytest.approx(length)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.tuples(*[st.floats(-3, 3)] * 3), st.tuples(*[st.floats(-3, 3)] * 3), st.floats(-7, 7), st.floats(-7, 7))
+def test_the_path_bounds_what_the_distance_of_two_points_changes_by(about, displacement, angle, angle_b):
+    a, b = box(1, 2, 3), box(0.5, 1, 1)
+    query = Query("motion", a, b, Pose((1, 2, 3, 4)), Pose((1, 0, 1, 0), (4, 0, 0)),
+                  Motion(displacement, (1, 1, 0), angle, about), Motion((1, 0, 0), (0, 0, 1), angle_b, about))
+    row = rows.case_row(Case("c", "s", 1.0, 0, query), Truth("hit"), 0)
+    (path,) = outcome._path(pd.DataFrame([row]))
+    for t in (0.25, 0.5, 1.0):
+        pose_a, pose_b = query.motion.pose_at(query.pose_a, t), query.motion_b.pose_at(query.pose_b, t)
+        start = query.pose_a.apply(a.vertices)[:, None] - query.pose_b.apply(b.vertices)
+        now = pose_a.apply(a.vertices)[:, None] - pose_b.apply(b.vertices)
+        assert np.linalg.norm(now - start, axis=2).max() <= path * (1 + 1e-12) + 1e-12
