@@ -49,13 +49,13 @@ bench-ofg: build
 	$(BIN)/python -m experiments.bench_ofg
 
 bench-truth: build
-	$(BIN)/python -m experiments.truth.bench
+	$(BIN)/python -m experiments.truth.audit.bench
 
 crosscheck: build
-	$(BIN)/python -m experiments.truth.crosscheck
+	$(BIN)/python -m experiments.truth.audit.crosscheck
 
 attack: build
-	$(BIN)/python -m experiments.truth.attack
+	$(BIN)/python -m experiments.truth.audit.attack
 
 TRIES ?= 50
 drill: build

@@ -3,7 +3,7 @@
 Engines have absolute tolerances and margins, and lose digits far from the origin. A careful user
 measures in units that suit the engine and puts the origin beside the bodies; so do the methods below.
 Both cost no accuracy: units are powers of two, and the origin is B's position, subtracted in double.
-Which unit suits an engine is counted by `experiments/tuning.py`, on cases that no run counts.
+Which unit suits an engine is counted by `experiments/studies/tuning.py`, on cases that no run counts.
 """
 
 from __future__ import annotations

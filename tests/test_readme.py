@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments.readme import MARK, fill
+from experiments.publish.readme import MARK, fill
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()

@@ -18,7 +18,7 @@ from pathlib import Path
 from random import Random
 from typing import Callable
 
-from experiments.progress import stage
+from experiments.run.progress import stage
 
 from . import command, kin, measure
 from .command import Attempt, Bench

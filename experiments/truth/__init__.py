@@ -6,10 +6,10 @@ from typing import Iterable
 
 from ofg import Query
 
-from .checker import Check, check, check_many
-from .label import Truth
-from .prover import prove, uncertain
-from .verify import Verification, verify
+from .check.checker import Check, check, check_many
+from experiments.cases.label import Truth
+from .prove.prover import prove, uncertain
+from .check.verify import Verification, verify
 
 __all__ = ["Check", "Truth", "Verification", "check", "check_many", "label", "label_many", "prove", "verify"]
 

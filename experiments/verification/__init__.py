@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 
-from ..config import load_files
-from ..store import Store
+from experiments.run.config import load_files
+from experiments.run.folder.store import Store
 from . import answers, cases, files, pieces, rows
 from .findings import Findings
 

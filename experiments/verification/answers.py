@@ -14,12 +14,12 @@ import pandas as pd
 
 from baselines import registry
 
-from .. import answering
-from ..compare import SAME_TIME
-from ..config import load_files
-from ..pool import Task, run
-from ..progress import stage
-from ..rows import cases_of
+from experiments.run import answering
+from experiments.analysis.compare import SAME_TIME
+from experiments.run.config import load_files
+from experiments.run.processes.pool import Task, run
+from experiments.run.progress import stage
+from experiments.run.folder.rows import cases_of
 from .findings import Findings
 
 

@@ -13,15 +13,16 @@ import pandas as pd
 
 from ofg import Body, Query
 
-from .. import scenarios
-from ..case import Case
-from ..config import load_files
-from ..labelling import REDRAWS, Slot
-from ..pool import Task, run
-from ..progress import stage
-from ..rows import body_row, case_row, cases_of, filled
-from ..store import Store
-from ..truth import Truth, check_many, label
+from experiments.cases import families
+from experiments.cases.case import Case
+from experiments.run.config import load_files
+from experiments.run.labelling import REDRAWS, Slot
+from experiments.run.processes.pool import Task, run
+from experiments.run.progress import stage
+from experiments.run.folder.rows import body_row, case_row, cases_of, filled
+from experiments.run.folder.store import Store
+from experiments.truth import Truth, check_many
+from experiments.truth import label
 from .findings import Findings
 
 CHUNK = 64
@@ -77,7 +78,7 @@ def _open(argument):
 
 
 def _looked_at(name: str, slot: Slot, row: dict, bodies: dict, seed: int) -> dict:
-    scenario = scenarios.scenarios().get(slot.scenario)
+    scenario = families.scenarios().get(slot.scenario)
     result = {"case": name, "wrong": [], "label": str(row["label"]), "drawn": bool(scenario)}
     try:
         if scenario:

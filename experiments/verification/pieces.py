@@ -6,11 +6,11 @@ import tempfile
 from collections import Counter
 from pathlib import Path
 
-from .. import decomposing
-from ..piece_truth import FILES
-from ..pool import Task, run
-from ..progress import stage
-from ..rows import body_row, cases_of, truth_row
+from experiments.run import decomposing
+from experiments.run.piece_truth import FILES
+from experiments.run.processes.pool import Task, run
+from experiments.run.progress import stage
+from experiments.run.folder.rows import body_row, cases_of, truth_row
 from .cases import CHUNK, SECONDS, prove, same
 from .findings import Findings
 

@@ -8,11 +8,13 @@ import pandas as pd
 
 from baselines import registry
 
-from .. import config as configuration
-from .. import given, piece_truth, record, scenarios, timing
-from ..labelling import Slot
-from ..rows import filled
-from ..store import Store
+from experiments.run import config as configuration
+from experiments.run.folder import given, record
+from experiments.run import piece_truth, timing
+from experiments.cases import families
+from experiments.run.labelling import Slot
+from experiments.run.folder.rows import filled
+from experiments.run.folder.store import Store
 from .findings import Findings
 
 CASES = ("case", "scenario", "level", "index", "attempt", "precision", "question", "body_a", "body_b",
@@ -73,7 +75,7 @@ def expected(config, cases: pd.DataFrame, found: Findings) -> dict[str, Slot]:
     """The places that the configuration asks for, by the name of their case."""
     slots = []
     for choice in config.scenarios:
-        known = scenarios.scenarios().get(choice.name)
+        known = families.scenarios().get(choice.name)
         own = cases.level[cases.scenario == choice.name].unique()
         for level in choice.levels or (known.levels if known else own):
             slots += [Slot(choice.name, float(level), i) for i in range(choice.cases)]

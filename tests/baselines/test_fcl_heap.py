@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from baselines import fcl, registry
-from experiments.scenarios import get
+from experiments.cases.families import get
 
 NAMES = ("fcl-advancement-convex", "fcl-advancement-mesh", "fcl-naive-convex")
 LINEAR = [f"{name} heap={heap}" for name in NAMES for heap in fcl.HEAP]

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from baselines import fcl, ipctk, registry
 from baselines.conformance import body, box, sweep
 from baselines.contract import Unsupported
-from experiments.scenarios import get
+from experiments.cases.families import get
 from experiments.truth import label
 from ofg import Motion, Pose, Query
 

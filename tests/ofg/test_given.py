@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ofg
-from experiments.truth import _native
+from experiments.truth.prove import _native
 from ofg import Body, _core
 
 CUBE = Body.convex(np.array(list(itertools.product((0.0, 1.0), repeat=3))))

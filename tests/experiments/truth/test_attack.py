@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from experiments.truth import check, check_many, label
-from experiments.truth.attack import campaign
+from experiments.truth import check, check_many
+from experiments.truth import label
+from experiments.truth.audit.attack import campaign
 
 from .draw import composite_query, convex_query
 
@@ -84,7 +85,7 @@ def _float(x):
 
 
 def test_a_small_campaign_of_all_mutations_is_refused():
-    """The full one, thousands of each, is `python -m experiments.truth.attack`."""
+    """The full one, thousands of each, is `python -m experiments.truth.audit.attack`."""
     names = ["feature_gap", "hooked_ls", "through_hole", "thin_wall", "concave_rotation", "linked_tori"]
     counts, wrong = campaign(1, 5, names)
     assert not wrong

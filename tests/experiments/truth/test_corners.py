@@ -144,7 +144,7 @@ def test_containment_is_a_hit_unless_in_a_cavity():
 
 
 def test_the_limit_of_effort_is_stated(monkeypatch):
-    from experiments.truth import prover
+    from experiments.truth.prove import prover
 
     monkeypatch.setattr(prover, "EFFORT", 2000.0)
     truth = label(Query("motion", torus(), torus(), Pose(), Pose([1, 1, 0, 0], [1, 0, 0]), Motion([0, 0, 0.25], [0, 0, 1], 60.0)))

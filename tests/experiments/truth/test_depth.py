@@ -7,13 +7,13 @@ this number, so it matters as much as the label.
 
 import pytest
 
-from experiments import scenarios
+from experiments.cases import families
 from experiments.truth import label
 
 
 @pytest.mark.parametrize("level", [-1e-2, -1e-4, -1e-6, -1e-8, -1e-10])
 def test_depth_is_at_most_the_built_one(level):
-    scenario = scenarios.get("feature_gap")
+    scenario = families.get("feature_gap")
     for index in range(14):
         case = scenario.case(1, level, index)
         truth = label(case.query)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from experiments.truth import check, label
+from experiments.truth import check
+from experiments.truth import label
 from ofg import Body, Motion, Pose, Query
 
 from .draw import composite_query, convex_query, moved_together, reversed_in_time, scaled

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from experiments.truth import check, check_many, label
+from experiments.truth import check, check_many
+from experiments.truth import label
 from ofg import Body, Motion, Pose, Query
 
 TURN = (4, -7, 4, 8)  # an integer quaternion: the rotation is rational and none of its entries is simple

@@ -12,9 +12,11 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from experiments.truth import check_many, checker, filter, label, label_many
-from experiments.truth.balls import BITS, number
-from experiments.truth.geometry import Pair
+from experiments.truth import check_many, label_many
+from experiments.truth.check import checker, filter
+from experiments.truth import label
+from experiments.truth.check.balls import BITS, number
+from experiments.truth.check.geometry import Pair
 from ofg import Body, Motion, Pose, Query
 
 from .draw import moved_together, reversed_in_time, scaled, two_movers
@@ -108,7 +110,7 @@ def gap_at(query, t) -> float:
 
 
 def test_instants_agree_with_a_linear_program():
-    """The full one, 2,000 cases by an exact kernel, is `python -m experiments.truth.crosscheck --scenarios both_moving`."""
+    """The full one, 2,000 cases by an exact kernel, is `python -m experiments.truth.audit.crosscheck --scenarios both_moving`."""
     rng = np.random.default_rng(24)
     for _ in range(60):
         query = two_movers(rng)
@@ -202,7 +204,7 @@ def test_the_second_derivative_never_exceeds_its_bound(arithmetic):
 @pytest.mark.parametrize("arithmetic", ("checker", "filter"))
 def test_a_bound_that_forgets_that_b_turns_is_found_out(name, arithmetic):
     bounds = by_balls if arithmetic == "checker" else by_doubles
-    broken = mutant(sys.modules[f"experiments.truth.{arithmetic}"], *MUTANTS[name][arithmetic])
+    broken = mutant(sys.modules[f"experiments.truth.check.{arithmetic}"], *MUTANTS[name][arithmetic])
     worst = max(shortfall(bounds(broken, o), second_derivatives(o)) for o in obligations(np.random.default_rng(30), 300))
     assert worst > 0.05
 

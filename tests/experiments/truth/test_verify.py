@@ -9,8 +9,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from experiments.rows import _certificate
-from experiments.truth import Truth, label, label_many, verify
+from experiments.run.folder.rows import _certificate
+from experiments.truth import Truth, label_many
+from experiments.truth import label
+from experiments.truth import verify
 from ofg import Body, Pose, Query
 
 from .draw import composite_query, convex_query
@@ -53,9 +55,9 @@ import experiments
 folder = pathlib.Path(experiments.__file__).parent / "truth"
 package = types.ModuleType("experiments.truth"); package.__path__ = [str(folder)]
 sys.modules["experiments.truth"] = package
-importlib.import_module("experiments.truth.checker")
+importlib.import_module("experiments.truth.check.checker")
 ours = sorted(m.split(".")[-1] for m in sys.modules if m.startswith("experiments.truth."))
-assert ours == ["balls", "checker", "filter", "geometry"], ours
+assert ours == ["balls", "check", "checker", "filter", "geometry"], ours
 engines = {"fcl", "pybullet", "mujoco", "scipy", "trimesh", "ofg._core", "ofg"} & set(sys.modules)
 assert not engines, engines
 """
