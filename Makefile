@@ -11,7 +11,7 @@ NATIVE := CMakeLists.txt pyproject.toml \
 SOURCES = $(shell git ls-files '*.[hc]pp')
 PAGE := experiments/report/page
 
-.PHONY: help env build quick test lint style types layers lines format lock engines browser native \
+.PHONY: help env build quick test lint style types layers lines format lock stub engines browser native \
 	bench-ofg bench-truth crosscheck attack drill fuzz fuzz-boundary reproduce clean
 help:
 	@echo "make quick        set up, build, run the main job in a few minutes, print its tables"
@@ -90,6 +90,10 @@ lock: .venv/.lint
 	set -e; for extra in lint engines browser; do \
 		$(BIN)/python -c '$(EXTRAS)' $$extra < pyproject.toml | \
 			$(COMPILE) - -c requirements.txt -o requirements-$$extra.txt; done
+
+# The types of the native core; a test says when they are no longer those of the core.
+stub: build
+	$(BIN)/python -m nanobind.stubgen --quiet -m ofg._core -o ofg/_core.pyi
 
 engines: build
 	$(INSTALL) --require-hashes -r requirements-engines.txt
