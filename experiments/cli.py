@@ -122,17 +122,18 @@ def findings(
     objections: Annotated[Optional[Path], typer.Option(help="write the page of objections and answers here, and no findings")] = None,
 ) -> None:
     """Say what the runs of a folder found: each claim of the article with its verdict, then each engine. What is missing is said to be."""
-    from . import findings as found
+    from .findings import Runs, page
+    from .findings import objections as objections_page
 
     if not results.is_dir():
         raise configuration.ConfigError(f"The folder {results} does not exist. Name the one that ofg-bench reproduce made.")
     with reading(results):
-        page = found.page(results) if objections is None else found.objections.page(found.Runs(results))
+        text = page(results) if objections is None else objections_page.page(Runs(results))
     into = into or objections
     if into is None:
-        print(page, end="")
+        print(text, end="")
         return
-    into.write_text(page)
+    into.write_text(text)
     console.print(f"The page is {markup(into)}.")
 
 
@@ -174,12 +175,13 @@ def tables(
 ) -> None:
     """Build the tables of a finished run anew from its rows, and print them."""
     from . import outcome, readme
-    from . import tables as made
+    from .tables import build
+    from .tables import save as save_tables
 
     with reading(run_):
         store = opened(run_, trust)
-        found = list(made.build(store))
-        made.save(store, found)
+        found = list(build(store))
+        save_tables(store, found)
         if store.has("observations.parquet"):
             outcome.save(store)
     for table in found:
@@ -201,16 +203,17 @@ def compare(
 
     Exit code 0 if accuracy is identical over the same cases and methods, 1 if not.
     """
-    from . import compare as comparing
+    from .compare import compare as differences
+    from .compare import reference
 
     if accept and not Store(first).has("config.json"):
         with reading(second):
-            comparing.reference(opened(second, trust), Store(first))
+            reference(opened(second, trust), Store(first))
         console.print(f"{markup(first)} is now the reference, made from {markup(second)}.")
         return
     with reading(first, second):
         before, after = opened(first, trust), opened(second, trust)
-        found = comparing.compare(before, after)
+        found = differences(before, after)
     for what, (left, right) in (("cases", found.only_cases), ("methods", found.only_methods)):
         for names, folder in ((left, first), (right, second)):
             if names:
@@ -234,7 +237,7 @@ def compare(
                   f"labels moved{'' if found.same_content else '; the runs differ in their cases or methods'}"
                   f"{f'; {len(found.changed)} cases ask a different question' if found.changed else ''}.", highlight=False)
     if accept:
-        comparing.reference(after, before)
+        reference(after, before)
         console.print(f"{markup(first)} is now the reference, made from {markup(second)}.")
         return
     raise typer.Exit(0 if found.identical else 1)
@@ -252,24 +255,24 @@ def _moved(before, after) -> str:
 def figures(run_: Run, trust: Trust = False) -> None:
     """Draw the figures of a finished run anew."""
     from . import curves
-    from . import figures as drawn
-    from . import tables as made
+    from .figures import accuracy_speed
+    from .tables import build
 
     with reading(run_):
         store = opened(run_, trust)
-        curves.save(store, list(made.build(store)))
+        curves.save(store, list(build(store)))
         if store.has("timings.parquet"):
-            drawn.accuracy_speed(store)
+            accuracy_speed(store)
     console.print(f"Figures are in {markup(run_ / 'figures')}.")
 
 
 @app.command()
 def report(run_: Run, trust: Trust = False) -> None:
     """Write report.html of a finished run anew: one file with everything, for any browser."""
-    from .report import report as written
+    from .report import report as write_report
 
     with reading(run_):
-        written(opened(run_, trust))
+        write_report(opened(run_, trust))
     console.print(f"The report is {markup(run_ / 'report.html')}.")
 
 
@@ -286,15 +289,16 @@ def explain(
     trust: Trust = False,
 ) -> None:
     """Show one case: a page with its bodies in 3D and its certificate, and a table of what every method said."""
-    from .report import explain as explained
+    from .report.request import Request, show
 
     if (run_ is None) == (file is None) or (run_ is not None and name is None):
         raise configuration.ConfigError("Name a case and its run (ofg-bench explain thin_wall/100/0007 --run results/runs/quick), or a file (ofg-bench explain --file case.json).")
     _extend(methods, None)
     with reading(run_ or file):
         store = opened(run_, trust) if run_ else None
-        explained.command(name, store, file, out, save, ask or bool(method), tuple(method or ()), tuple(map(str, methods or ())), trust,
-                          _print_grid, console.print)
+        request = Request(name, store, file, tuple(method or ()), tuple(map(str, methods or ())),
+                          ask or bool(method), trust)
+        show(request, out, save, _print_grid, console.print)
 
 
 @app.command()

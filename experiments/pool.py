@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Callable, Sequence
 
 from .crew import RESUME, Crew, Worker
-from .limits import deadline, limit, mark
+from .limits import limit, mark
 from .machine import MachineError
 from .worker import NO_CHANNEL, NO_MEMORY
 

@@ -261,7 +261,7 @@ def _ask(
     )[0]
 
 
-def _many(
+def _many(  # noqa: PLR0913 - what the core takes
     moving: bool,
     a: Body,
     b: Body,

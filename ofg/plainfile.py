@@ -135,7 +135,7 @@ def _ply(data: bytes) -> list[Part]:
 
 
 def _ply_header(head: str) -> tuple[str, list[tuple[str, int, Properties]]]:
-    """(form, [(element, count, its properties)])"""
+    """(form, [(element, count, its properties)])."""
     form = ""
     elements: list[tuple[str, int, Properties]] = []
     for words in map(str.split, head.splitlines()):

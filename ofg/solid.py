@@ -196,6 +196,7 @@ def outward(v: np.ndarray, f: np.ndarray, who: str) -> np.ndarray:
 
 
 def notice_turned(who: str) -> None:
+    """The BodyWarning of a surface that was turned."""
     warnings.warn(
         f"{who}: the mesh is inside-out; its faces are turned outward.", BodyWarning, stacklevel=6
     )
