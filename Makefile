@@ -10,8 +10,9 @@ NATIVE := CMakeLists.txt pyproject.toml \
 
 SOURCES = $(shell git ls-files '*.[hc]pp')
 PAGE := experiments/report/page
+REUSE := REUSE_ENCODING_MODULE=charset_normalizer $(BIN)/reuse
 
-.PHONY: help env build quick test lint style types layers lines format lock stub engines browser native \
+.PHONY: help env build quick test lint style types layers lines format licences lock stub engines browser native \
 	bench-ofg bench-truth crosscheck attack drill fuzz fuzz-boundary reproduce clean
 help:
 	@echo "make quick        set up, build, run the main job in a few minutes, print its tables"
@@ -63,6 +64,7 @@ style: .venv/.lint
 	$(BIN)/ruff format --check .
 	$(BIN)/clang-format --dry-run --Werror $(SOURCES)
 	$(BIN)/biome ci --colors=off $(PAGE)
+	$(REUSE) lint --lines
 
 types: .venv/.lint
 	$(BIN)/mypy
@@ -72,6 +74,12 @@ layers: .venv/.lint
 
 lines: .venv/.ready
 	$(BIN)/pytest tests/test_lines.py
+
+# A licence for each file of ours that has none in its own lines.
+COMMENTED := '*.py' '*.[hc]pp' '*.rs' '$(PAGE)/*.js' '$(PAGE)/*.css' Makefile '*CMakeLists.txt'
+licences: .venv/.lint
+	$(REUSE) annotate --license MIT --copyright "The ofg authors" --year 2026 --skip-existing \
+		$(shell git ls-files $(COMMENTED))
 
 format: .venv/.lint
 	$(BIN)/ruff check --fix --exit-zero --quiet .

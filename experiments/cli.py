@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, Optional
 
@@ -20,7 +21,7 @@ from .machine import ERRNOS, MachineError
 from .reading import opened, reading
 from .store import Store, StoreError
 
-app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", pretty_exceptions_enable=False, add_completion=False,
+app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", pretty_exceptions_enable=False,
                   help="""Benchmark collision detection on cases whose true answers are certified.
 
 A run is one folder: `ofg-bench run quick` makes cases, certifies them, asks every method, takes times and prints the tables.
@@ -32,6 +33,19 @@ SkipMissing = Annotated[bool, typer.Option("--skip-missing", help="leave rows of
 Trust = Annotated[bool, typer.Option("--trust", help="run the Python files that the run names as its own methods and scenarios")]
 Methods = Annotated[Optional[list[Path]], typer.Option("--methods", help="Python file with methods of your own (METHODS = [...]); may be repeated")]
 Scenarios = Annotated[Optional[list[Path]], typer.Option("--scenarios", help="Python file with scenarios of your own (SCENARIO = ...); may be repeated")]
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        print(f"ofg-bench {version('ofg')}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version_: Annotated[bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")] = False,
+) -> None:
+    """What stands before a command."""
 
 
 @app.command("list")
