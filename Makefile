@@ -1,36 +1,50 @@
-# The two commands of the README: `make quick` and `make test`. Each creates the environment and builds what it needs.
+# The two commands of the README: `make quick` and `make test`. Each creates the environment and
+# builds what it needs.
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 BIN := .venv/bin
+INSTALL = $(BIN)/pip install --quiet --disable-pip-version-check
 RUN ?= results/runs/quick
 PRESET ?= quick
-NATIVE := CMakeLists.txt pyproject.toml $(shell find ofg experiments/truth -name '*.[hc]pp' -o -name CMakeLists.txt)
+NATIVE := CMakeLists.txt pyproject.toml \
+	$(shell find ofg experiments/truth -name '*.[hc]pp' -o -name CMakeLists.txt)
 
-.PHONY: help env build quick test engines native bench-ofg bench-truth crosscheck attack drill fuzz fuzz-boundary reproduce clean
+SOURCES = $(shell git ls-files '*.[hc]pp')
+PAGE := experiments/publish/report/page
+REUSE := REUSE_ENCODING_MODULE=charset_normalizer $(BIN)/reuse
+
+.PHONY: help env build quick test lint style types layers lines format licences lock stub engines browser native \
+	bench-ofg bench-truth crosscheck attack drill fuzz fuzz-boundary reproduce clean
 help:
 	@echo "make quick        set up, build, run the main job in a few minutes, print its tables"
 	@echo "make test         set up, build, run every test"
+	@echo "make lint         check style, types, layers and the length of files"
+	@echo "make format       write the style that make lint checks"
+	@echo "make lock         make the requirements files anew; versions stay"
 	@echo "make engines      install the further engines too: coal, rapier, parry, ipctk, drake"
-	@echo "make native       build the native lane (the libraries asked from C++) with what is found here, and compare both lanes"
-	@echo "make reproduce    run every experiment and the standard preset into results/, and write the findings (under an hour)"
+	@echo "make browser      install what the report's tests drive a Chromium with"
+	@echo "make native       ask the libraries from C++ too, and compare both lanes"
+	@echo "make reproduce    run every experiment and the standard preset (under an hour)"
 	@echo "make bench-ofg    time OFG step by step, by size and k, beside the native engines"
 	@echo "make bench-truth  certified labels a second on the standard mix"
 	@echo "make crosscheck   ask CGAL's exact kernel and dense sampling about the labels"
 	@echo "make attack       corrupt thousands of certificates: the checker must refuse them"
-	@echo "make drill        kill, stop and starve runs, and run faulty methods: nothing of it may become data (an hour or more)"
-	@echo "make fuzz         a million random queries under the address and undefined-behaviour sanitizers"
-	@echo "make fuzz-boundary  a million calls with garbage into both native modules under the same sanitizers"
+	@echo "make drill        kill, stop and starve runs, and run faulty methods (an hour or more)"
+	@echo "make fuzz         a million random queries under the address and UB sanitizers"
+	@echo "make fuzz-boundary  a million calls with garbage into both native modules"
 	@echo "make clean        remove the environment and the build (never a run)"
 
 env: .venv/.ready
 .venv/.ready: requirements.txt
-	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || { echo "ofg needs Python 3.11, the newest for which every engine has a wheel. Install it and say: make PYTHON=/path/to/python3.11 $(MAKECMDGOALS)"; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || { \
+		echo "ofg needs Python 3.11, the newest for which every engine has a wheel." \
+			"Install it and say: make PYTHON=/path/to/python3.11 $(MAKECMDGOALS)"; exit 1; }
 	$(PYTHON) -m venv .venv
-	$(BIN)/pip install --quiet --disable-pip-version-check --require-hashes -r requirements.txt
+	$(INSTALL) --require-hashes -r requirements.txt
 	@touch $@
 
 build: .venv/.built
 .venv/.built: .venv/.ready $(NATIVE)
-	$(BIN)/pip install --quiet --disable-pip-version-check --no-build-isolation --no-deps -e .
+	$(INSTALL) --no-build-isolation --no-deps -e .
 	@touch $@
 
 quick: build
@@ -39,8 +53,61 @@ quick: build
 test: build
 	$(BIN)/pytest -n 2
 
+.venv/.lint: .venv/.ready requirements-lint.txt
+	$(INSTALL) --require-hashes -r requirements-lint.txt
+	@touch $@
+
+lint: style types layers lines
+
+style: .venv/.lint
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/clang-format --dry-run --Werror $(SOURCES)
+	$(BIN)/biome ci --colors=off $(PAGE)
+	$(REUSE) lint --lines
+
+types: .venv/.lint
+	$(BIN)/mypy
+
+layers: .venv/.lint
+	$(BIN)/lint-imports --no-logo
+
+lines: .venv/.ready
+	$(BIN)/pytest tests/test_lines.py
+
+# A licence for each file of ours that has none in its own lines.
+COMMENTED := '*.py' '*.[hc]pp' '*.rs' '$(PAGE)/*.js' '$(PAGE)/*.css' Makefile '*CMakeLists.txt'
+licences: .venv/.lint
+	$(REUSE) annotate --license MIT --copyright "The ofg authors" --year 2026 --skip-existing \
+		$(shell git ls-files $(COMMENTED))
+
+format: .venv/.lint
+	$(BIN)/ruff check --fix --exit-zero --quiet .
+	$(BIN)/ruff format .
+	$(BIN)/clang-format -i $(SOURCES)
+	$(BIN)/biome check --write $(PAGE)
+
+# Versions in the files stay. To move one: make lock UPGRADE='--upgrade-package NAME'.
+COMPILE = $(BIN)/uv pip compile --quiet --no-header --generate-hashes --python-version 3.11 \
+	$(UPGRADE)
+EXTRAS := import sys, tomllib; \
+	extras = tomllib.load(sys.stdin.buffer)["project"]["optional-dependencies"]; \
+	print(*extras[sys.argv[1]], sep="\n")
+lock: .venv/.lint
+	$(COMPILE) pyproject.toml --extra test --extra build -o requirements.txt
+	set -e; for extra in lint engines browser; do \
+		$(BIN)/python -c '$(EXTRAS)' $$extra < pyproject.toml | \
+			$(COMPILE) - -c requirements.txt -o requirements-$$extra.txt; done
+
+# The types of the native core; a test says when they are no longer those of the core.
+stub: build
+	$(BIN)/python -m nanobind.stubgen --quiet -m ofg._core -o ofg/_core.pyi
+
 engines: build
-	$(BIN)/pip install --disable-pip-version-check coal rapier3d ipctk py-parry3d drake==1.51.1
+	$(INSTALL) --require-hashes -r requirements-engines.txt
+
+browser: build
+	$(INSTALL) --require-hashes -r requirements-browser.txt
 
 native: build
 	$(BIN)/python -m experiments.native
@@ -70,9 +137,12 @@ fuzz: build
 
 CALLS ?= 1000000
 fuzz-boundary: build
-	$(BIN)/cmake -S tests/ofg/native/boundary -B build/boundary -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python -DCMAKE_BUILD_TYPE=RelWithDebInfo
+	$(BIN)/cmake -S tests/ofg/native/boundary -B build/boundary \
+		-DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python -DCMAKE_BUILD_TYPE=RelWithDebInfo
 	$(BIN)/cmake --build build/boundary
-	ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 LD_PRELOAD="$$($${CXX:-c++} -print-file-name=libasan.so) $$($${CXX:-c++} -print-file-name=libstdc++.so)" \
+	asan=$$($${CXX:-c++} -print-file-name=libasan.so); \
+	std=$$($${CXX:-c++} -print-file-name=libstdc++.so); \
+	ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 LD_PRELOAD="$$asan $$std" \
 		$(BIN)/python tests/ofg/native/boundary.py build/boundary $(CALLS) $(SECONDS)
 
 reproduce: build

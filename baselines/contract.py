@@ -77,12 +77,12 @@ class Method(ABC):
     #: False: its engine may answer the same question otherwise another time, so that no answer of it proves a change
     repeatable: ClassVar[bool] = True
     cheapest: ClassVar[Mapping[str, Any]] = {}  #: parameters of its cheapest call, which gives its floor: {"n": 1} for n substeps
-    parameters: ClassVar[Mapping[str, Any]] = {}  #: name -> default; the first is the one its accuracy-speed curve runs over
+    parameters: Mapping[str, Any] = {}  #: name -> default; the first is the one its accuracy-speed curve runs over
     #: name -> (least, most) of a number, or the words that it takes; others take all of their kind
     allowed: ClassVar[Mapping[str, Allowed]] = {}
     unlimited: ClassVar[frozenset[str]] = frozenset()  #: whole-number parameters that take "inf" too
 
-    def __init__(self, **parameters):
+    def __init__(self, **parameters: Any) -> None:
         unknown = sorted(set(parameters) - set(self.parameters))
         if unknown:
             known = ", ".join(self.parameters) or "none"

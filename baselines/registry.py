@@ -51,7 +51,7 @@ def load_file(path) -> dict[str, type[Method]]:
         raise ValueError(f"Method file {path.name} declares no method; end it with METHODS = [Class, ...], where each Class is a "
                          "subclass of baselines.contract.Method.")
     known = methods()
-    for name, cls in found.items():
+    for name in found:
         if name in known and not getattr(known[name], "__module__", "").startswith("baselines_file_"):
             raise ValueError(f"Method file {path.name}: the name '{name}' is taken by {known[name].__module__}; choose another.")
     known.update(found)

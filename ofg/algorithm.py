@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import os
 from collections import OrderedDict
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _core, checks
 from .answer import Answer, Answers
-from .arrays import broadcast, check_float, row, rows_of
+from .arrays import Motions, Poses, broadcast, check_float, row, rows_of
 from .body import Body
 from .motion import Motion
 from .options import PRECISION, check_article, core_options
@@ -22,7 +24,7 @@ _KEPT_SOLIDS = 256
 MOST_THREADS = 256
 
 
-def discrete(a: Body, b: Body, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, k: int = 8, **options) -> Answer:
+def discrete(a: Body, b: Body, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, k: int = 8, **options: Any) -> Answer:
     """Discrete OFG in eight steps: do the surfaces of `a` and `b` meet at these poses?
 
     k: faces in each selection. At k no less than the number of faces the answer is that of testing all pairs of faces.
@@ -62,19 +64,19 @@ def discrete(a: Body, b: Body, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, 
 def translational_sweep(
     a: Body,
     b: Body,
-    displacement,
+    displacement: ArrayLike,
     pose_a: Pose = Pose(),
     pose_b: Pose = Pose(),
     *,
-    displacement_b=(0, 0, 0),
+    displacement_b: ArrayLike = (0, 0, 0),
     k: int = 8,
-    **options,
+    **options: Any,
 ) -> Answer:
     """Translational sweep in six steps: `a` moves by `displacement` (and `b` by `displacement_b`), each (3,), over t in [0, 1].
 
     Options as of `discrete`. Source: part 3 of the article, "Solving the discrete time problem".
     """
-    return _ask(True, a, b, pose_a, pose_b, Motion(displacement), Motion(displacement_b), OFG, k=k, **options)
+    return _ask(True, a, b, pose_a, pose_b, _shift(displacement), _shift(displacement_b), OFG, k=k, **options)
 
 
 def rotational_sweep(
@@ -86,7 +88,7 @@ def rotational_sweep(
     *,
     motion_b: Motion = Motion(),
     k: int = 8,
-    **options,
+    **options: Any,
 ) -> Answer:
     """Rotational sweep: `a` (and `b`) turn and translate as their motions say, about the origins of
     their frames or about other points of theirs. The virtual edges are chords of the true paths,
@@ -96,12 +98,12 @@ def rotational_sweep(
     return _ask(True, a, b, pose_a, pose_b, motion_a, motion_b, OFG, k=k, **options)
 
 
-def ask(query: Query, *, k: int = 8, **options) -> Answer:
+def ask(query: Query, *, k: int = 8, **options: Any) -> Answer:
     """The answer to a Query, by the variant that its question names."""
     return _ask(*_asked(query), OFG, k=k, **options)
 
 
-def article(query: Query, *, k: int = 8, broad: str = "start", **options) -> Answer:
+def article(query: Query, *, k: int = 8, broad: str = "start", **options: Any) -> Answer:
     """The article's steps and nothing else: no acceleration and no repair. ARTICLE.md goes through it sentence by sentence.
 
     broad: step 1 of a sweep at the start pose, as it reads literally, or "swept". Further options: toi, order, iterations, precision,
@@ -117,7 +119,16 @@ def brute_force(query: Query, *, precision: str = "double") -> Answer:
     return _ask(*_asked(query), BRUTE_FORCE, precision=precision)
 
 
-def discrete_many(a: Body, b: Body, poses_a, poses_b, *, k: int = 8, threads: int | None = 1, **options) -> Answers:
+def discrete_many(
+    a: Body,
+    b: Body,
+    poses_a: Poses,
+    poses_b: Poses,
+    *,
+    k: int = 8,
+    threads: int | None = 1,
+    **options: Any,
+) -> Answers:
     """`discrete` for n pairs of poses in one call, without the interpreter lock.
 
     poses_a, poses_b: sequences of n Pose, or (n, 7) arrays of quaternion (w, x, y, z) and position; one Pose stands for n of it.
@@ -127,7 +138,16 @@ def discrete_many(a: Body, b: Body, poses_a, poses_b, *, k: int = 8, threads: in
 
 
 def sweep_many(
-    a: Body, b: Body, poses_a, poses_b, motions_a, motions_b=Motion(), *, k: int = 8, threads: int | None = 1, **options
+    a: Body,
+    b: Body,
+    poses_a: Poses,
+    poses_b: Poses,
+    motions_a: Motions,
+    motions_b: Motions = Motion(),
+    *,
+    k: int = 8,
+    threads: int | None = 1,
+    **options: Any,
 ) -> Answers:
     """Sweeps for n pairs of poses and motions in one call.
 
@@ -140,17 +160,35 @@ def sweep_many(
 
 
 def brute_force_many(
-    a: Body, b: Body, poses_a, poses_b, motions_a=None, motions_b=Motion(), *, threads: int | None = 1, precision: str = "double"
+    a: Body,
+    b: Body,
+    poses_a: Poses,
+    poses_b: Poses,
+    motions_a: Motions | None = None,
+    motions_b: Motions = Motion(),
+    *,
+    threads: int | None = 1,
+    precision: str = "double",
 ) -> Answers:
     """`brute_force` for n pairs of poses (and motions, for sweeps) in one call."""
-    still = motions_a is None
+    moving = motions_a is not None
+    motions_a = Motion() if motions_a is None else motions_a
     return _many(
-        not still, a, b, poses_a, poses_b, Motion() if still else motions_a, motions_b, BRUTE_FORCE, threads, precision=precision
+        moving,
+        a,
+        b,
+        poses_a,
+        poses_b,
+        motions_a,
+        motions_b,
+        BRUTE_FORCE,
+        threads,
+        precision=precision,
     )
 
 
 def prepare(
-    query: Query, *, algorithm: int = OFG, precision: str = "double", **options
+    query: Query, *, algorithm: int = OFG, precision: str = "double", **options: Any
 ) -> _core.Prepared:
     """A callable that asks `query` in the core and returns (hit, time): what a harness times."""
     checks.query(query)
@@ -194,12 +232,26 @@ def solid(body: Body, precision: str = "double") -> _core.Solid:
     return made
 
 
-def _asked(q: Query) -> tuple:
+def _shift(displacement: ArrayLike) -> Motion:
+    return Motion(checks.vector(displacement, 3, "Motion.displacement"))
+
+
+def _asked(q: Query) -> tuple[bool, Body, Body, Pose, Pose, Motion, Motion]:
     checks.query(q)
     return q.question != "overlap", q.a, q.b, q.pose_a, q.pose_b, q.motion, q.motion_b
 
 
-def _ask(moving, a, b, pose_a, pose_b, motion_a, motion_b, algorithm, **options) -> Answer:
+def _ask(
+    moving: bool,
+    a: Body,
+    b: Body,
+    pose_a: Pose,
+    pose_b: Pose,
+    motion_a: Motion,
+    motion_b: Motion,
+    algorithm: int,
+    **options: Any,
+) -> Answer:
     checks.pose(pose_a, "pose_a")
     checks.pose(pose_b, "pose_b")
     checks.motion(motion_a, "motion_a")
@@ -209,42 +261,47 @@ def _ask(moving, a, b, pose_a, pose_b, motion_a, motion_b, algorithm, **options)
     )[0]
 
 
-def _many(
-    moving,
-    a,
-    b,
-    poses_a,
-    poses_b,
-    motions_a,
-    motions_b,
-    algorithm,
-    threads,
+def _many(  # noqa: PLR0913 - what the core takes
+    moving: bool,
+    a: Body,
+    b: Body,
+    poses_a: Poses,
+    poses_b: Poses,
+    motions_a: Motions,
+    motions_b: Motions,
+    algorithm: int,
+    threads: int | None,
     *,
-    precision="double",
-    **options,
+    precision: str = "double",
+    **options: Any,
 ) -> Answers:
     checks.body(a, "a")
     checks.body(b, "b")
     single = _is_float(precision)
-    rows = broadcast([
+    rows = [
         rows_of(poses_a, Pose, "poses_a"),
         rows_of(poses_b, Pose, "poses_b"),
         rows_of(motions_a, Motion, "motions_a"),
         rows_of(motions_b, Motion, "motions_b"),
-    ])
+    ]
+    at_a, at_b, by_a, by_b = broadcast(rows)
     if single:
-        check_float(*rows)
-    out = _core.ask_many(
+        check_float(at_a, at_b, by_a, by_b)
+    hit, time, found, faces, pieces, counts = _core.ask_many(
         solid(a, precision),
         solid(b, precision),
-        *rows,
+        at_a,
+        at_b,
+        by_a,
+        by_b,
         core_options(**options),
         algorithm,
         moving,
         single,
         _threads(threads),
     )
-    return Answers(*out, toi=options.get("toi", "velocity"))
+    toi = options.get("toi", "velocity")
+    return Answers(hit, time, found, faces, pieces, counts, toi)
 
 
 def _threads(threads: int | None) -> int:

@@ -74,8 +74,8 @@ class Answers:
             bool(self.hit[i]),
             float(self.time[i]),
             found,
-            tuple(map(int, self.faces[i])),
-            tuple(map(int, self.pieces[i])),
+            (int(self.faces[i, 0]), int(self.faces[i, 1])),
+            (int(self.pieces[i, 0]), int(self.pieces[i, 1])),
             estimate,
             dict(zip(COUNTS, map(int, self.counts[i]))),
         )

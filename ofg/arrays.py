@@ -10,6 +10,9 @@ from . import checks
 from .motion import Motion
 from .pose import Pose
 
+#: One for all queries, one for each, or the rows of an array.
+Poses = Pose | Sequence[Pose] | np.ndarray
+Motions = Motion | Sequence[Motion] | np.ndarray
 #: Of each kind: columns of the core's rows, those that an array may have, in words.
 _COLUMNS = {
     Pose: (7, (7,), "(n, 7): quaternion (w, x, y, z), position"),
@@ -24,7 +27,7 @@ def row(value: Pose | Motion) -> np.ndarray:
     return np.concatenate([value.displacement, value.axis, [value.angle], value.about])
 
 
-def rows_of(values: Pose | Motion | Sequence | np.ndarray, kind: type, name: str) -> np.ndarray:
+def rows_of(values: Poses | Motions, kind: type[Pose] | type[Motion], name: str) -> np.ndarray:
     """`row` of a Pose or a Motion; (n, 7) or (n, 10) of many, in a sequence or an array.
 
     Raises TypeError for what holds something else, ValueError for a shape or a number out of range.
@@ -57,7 +60,9 @@ def broadcast(rows: Sequence[np.ndarray]) -> list[np.ndarray]:
     return [np.ascontiguousarray(np.broadcast_to(r, (n, r.shape[-1]))) for r in rows]
 
 
-def check_float(poses_a, poses_b, motions_a, motions_b) -> None:
+def check_float(
+    poses_a: np.ndarray, poses_b: np.ndarray, motions_a: np.ndarray, motions_b: np.ndarray
+) -> None:
     """ValueError where what the core does in single precision would leave its range.
 
     Positions far from the world's origin are no matter: only the relative ones enter.
@@ -76,17 +81,17 @@ def check_float(poses_a, poses_b, motions_a, motions_b) -> None:
             )
 
 
-def _all_of(values: Any, kind: type, name: str) -> list:
+def _all_of(values: Any, kind: type[Pose] | type[Motion], name: str) -> list[Pose | Motion]:
     shape = _COLUMNS[kind][2].split(":")[0]
     give = f"give {kind.__name__} objects or an {shape} float array"
     try:
-        values = list(values)
+        every = list(values)
     except TypeError:
         raise TypeError(f"{name} is {checks.shown(values)}; {give}.") from None
-    wrong = next((v for v in values if not isinstance(v, kind)), None)
-    if any(not isinstance(v, kind) for v in values):
+    wrong = next((v for v in every if not isinstance(v, kind)), None)
+    if any(not isinstance(v, kind) for v in every):
         raise TypeError(f"{name} holds {checks.shown(wrong)}; {give}.")
-    return values
+    return every
 
 
 def _first(bad: np.ndarray) -> int | None:
@@ -105,7 +110,7 @@ def _check_finite(rows: np.ndarray, name: str) -> None:
 
 
 def _check_poses(rows: np.ndarray, name: str) -> None:
-    i = _first(~rows[:, :4].any(axis=1))
+    i = _first((rows[:, :4] == 0).all(axis=1))
     if i is not None:
         raise ValueError(
             f"{name}[{i}] has a zero quaternion, which is no rotation; use (1, 0, 0, 0) for none."

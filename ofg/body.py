@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import hashlib
+import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import trimesh
+from numpy.typing import ArrayLike
 from scipy.spatial import ConvexHull, QhullError
 
 from . import checks, exact, meshfile, solid, surface, volume, winding
 from .frozen import Frozen
+from .plainfile import Part
 from .solid import BodyError, BodyWarning
 
 __all__ = ["Body", "BodyError", "BodyWarning"]
@@ -33,11 +37,11 @@ class Body(Frozen):
     kind: str
     vertices: np.ndarray
     faces: np.ndarray
-    pieces: tuple["Body", ...]
+    pieces: tuple[Body, ...]
     name: str = "body"
 
     @classmethod
-    def convex(cls, vertices, name: str = "body") -> "Body":
+    def convex(cls, vertices: ArrayLike, name: str = "body") -> Body:
         """The convex hull of (n, 3) points; those inside it are dropped. BodyError if flat."""
         v = solid.points(vertices, f"Body '{name}'")
         try:
@@ -52,7 +56,7 @@ class Body(Frozen):
         return cls._of("convex", v, faces if _volume(v, faces) > 0 else faces[:, ::-1], (), name)
 
     @classmethod
-    def mesh(cls, vertices, faces, name: str = "body") -> "Body":
+    def mesh(cls, vertices: ArrayLike, faces: ArrayLike, name: str = "body") -> Body:
         """What a closed triangle mesh encloses: the points with a winding number not 0.
 
         vertices: (n, 3) numbers. faces: (m, 3) indices, outward. Vertices at exactly one place are
@@ -65,7 +69,7 @@ class Body(Frozen):
         return cls._of("mesh", *solid.closed(v, solid.triangles(faces, len(v), who), who), (), name)
 
     @classmethod
-    def union(cls, pieces, name: str = "body") -> "Body":
+    def union(cls, pieces: Iterable[Body], name: str = "body") -> Body:
         """The union of convex bodies, which may overlap and share a frame. BodyError for others."""
         try:
             pieces = tuple(pieces)
@@ -87,8 +91,8 @@ class Body(Frozen):
 
     @classmethod
     def from_trimesh(
-        cls, mesh, name: str | None = None, *, split: bool = False, weld: float = 0.0
-    ) -> "Body":
+        cls, mesh: object, name: str | None = None, *, split: bool = False, weld: float = 0.0
+    ) -> Body:
         """A convex body if that is proved, else a mesh body. mesh: a Trimesh or Scene.
 
         Convex means that every vertex is exactly on or behind the plane of every face; a mesh that
@@ -105,13 +109,13 @@ class Body(Frozen):
     @classmethod
     def from_file(
         cls,
-        path,
+        path: str | os.PathLike[str],
         name: str | None = None,
         *,
         split: bool = False,
         weld: float = 0.0,
         most: int = meshfile.MOST_BYTES,
-    ) -> "Body":
+    ) -> Body:
         """The body in a triangle mesh file: OBJ, STL, PLY, OFF, GLB, and others that trimesh reads.
 
         Kind, split and weld as of from_trimesh. The file may be gzipped, bzipped or in a ZIP. most:
@@ -127,7 +131,9 @@ class Body(Frozen):
         )
 
     @classmethod
-    def _from_parts(cls, parts, name, who, split, weld) -> "Body":
+    def _from_parts(
+        cls, parts: list[Part], name: str, who: str, split: bool, weld: float
+    ) -> Body:
         split = checks.truth("split", split)
         parts = [(solid.points(v, who, 1), f) for v, f in parts]
         parts = [solid.welded(v, solid.triangles(f, len(v), who), weld, who) for v, f in parts]
@@ -142,7 +148,7 @@ class Body(Frozen):
         return cls._proved_convex(v, f, name, who) or cls._of("mesh", v, f, (), name)
 
     @classmethod
-    def _proved_convex(cls, v, f, name, who) -> "Body | None":
+    def _proved_convex(cls, v: np.ndarray, f: np.ndarray, name: str, who: str) -> Body | None:
         """The convex body that a closed outward surface bounds; None if that is not proved."""
         if not solid.is_convex(v, f):
             return None
@@ -158,7 +164,7 @@ class Body(Frozen):
         return hull
 
     @classmethod
-    def _split(cls, parts, name, who) -> "Body":
+    def _split(cls, parts: list[Part], name: str, who: str) -> Body:
         shells = [shell for part in parts for shell in surface.apart(*part)]
         for i, (v, f) in enumerate(shells):
             solid.require_balance(v, f, f"{who}, part {i + 1} of {len(shells)} by itself")
@@ -170,17 +176,25 @@ class Body(Frozen):
         pieces = []
         for i, ((v, f), sign) in enumerate(zip(shells, signs)):
             of = f"{who}, part {i + 1} of {len(shells)}"
-            pieces.append(cls._proved_convex(v, f, f"{name}#{i}", of) if sign > 0 else None)
-            if pieces[-1] is None:
+            piece = cls._proved_convex(v, f, f"{name}#{i}", of) if sign > 0 else None
+            if piece is None:
                 raise BodyError(
                     f"{of} is {'concave' if sign > 0 else 'inside-out or a cavity'}, and a union is"
                     " made of convex pieces. Read it without split, as a mesh, and make pieces of"
                     " that with ofg.decompose."
                 )
+            pieces.append(piece)
         return cls.union(pieces, name)
 
     @classmethod
-    def _of(cls, kind, vertices, faces, pieces, name) -> "Body":
+    def _of(
+        cls,
+        kind: str,
+        vertices: np.ndarray,
+        faces: np.ndarray,
+        pieces: tuple[Body, ...],
+        name: str,
+    ) -> Body:
         vertices, faces = np.array(vertices, np.float64, order="C"), np.array(
             faces, np.int32, order="C"
         )
@@ -196,7 +210,7 @@ class Body(Frozen):
         """Content hash (hex): equal for bodies of equal kind and arrays, whatever their names."""
         h = hashlib.sha256(self.kind.encode())
         for part in self.pieces if self.kind == "union" else (self,):
-            h.update(np.int64([len(part.vertices), len(part.faces)]).tobytes())
+            h.update(np.array([len(part.vertices), len(part.faces)], np.int64).tobytes())
             h.update(part.vertices.tobytes())
             h.update(part.faces.tobytes())
         return h.hexdigest()[:24]
@@ -205,7 +219,8 @@ class Body(Frozen):
     def centre(self) -> np.ndarray:
         """(3,) mean of the vertices; of a union, the mean of its pieces' centres."""
         points = [p.centre for p in self.pieces] if self.kind == "union" else self.vertices
-        return np.mean(points, axis=0)
+        mean: np.ndarray = np.mean(points, axis=0)
+        return mean
 
     @cached_property
     def radius(self) -> float:
@@ -248,6 +263,7 @@ class Body(Frozen):
         return float(np.linalg.norm(np.ptp(self.vertices, axis=0)))
 
     def to_trimesh(self) -> trimesh.Trimesh:
+        """The vertices and faces as they are, in the body's frame."""
         return trimesh.Trimesh(self.vertices, self.faces, process=False)
 
     def __repr__(self) -> str:
@@ -258,7 +274,7 @@ class Body(Frozen):
         )
 
 
-def _what(thing) -> str:
+def _what(thing: object) -> str:
     return f"{thing!r}" if isinstance(thing, Body) else f"a {type(thing).__name__}"
 
 

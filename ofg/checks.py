@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from numbers import Real
-from typing import Any, Sequence
+from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from .body import Body
 
 #: Greatest length in poses, motions and bodies: the core multiplies a few of them with one another.
 LONGEST = 1e60
@@ -92,7 +95,7 @@ def reals(value: Any) -> np.ndarray:
     return a.astype(np.float64)
 
 
-def _double(x: Real) -> float:
+def _double(x: Any) -> float:
     try:
         return float(x)
     except OverflowError:
@@ -131,10 +134,10 @@ def number(value: Any, name: str) -> float:
         x = np.empty(1)
     if x.ndim:
         raise TypeError(f"{name} must be a number, but is {shown(value)}.")
-    x = float(x)
-    if not np.isfinite(x):
-        raise ValueError(f"{name} = {x} is not finite.")
-    return x
+    found = float(x)
+    if not np.isfinite(found):
+        raise ValueError(f"{name} = {found} is not finite.")
+    return found
 
 
 def lengths(v: np.ndarray, name: str, most: float = LONGEST) -> None:
@@ -163,7 +166,7 @@ def angle(x: float, name: str) -> None:
         )
 
 
-def coordinates(body, precision: str = "double") -> None:
+def coordinates(body: Body, precision: str = "double") -> None:
     """ValueError for a body that is too small or too large for the core."""
     single = precision == "float"
     least, most = (SMALLEST_FLOAT, LONGEST_FLOAT) if single else (SMALLEST, LONGEST)

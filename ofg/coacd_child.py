@@ -1,4 +1,6 @@
-"""Run CoACD in a process of its own, which can be ended: coacd_child.py SECONDS < IN.npz > OUT.npz
+"""Run CoACD in a process of its own, which can be ended.
+
+Usage: coacd_child.py SECONDS < IN.npz > OUT.npz
 
 Native code that hangs cannot be interrupted in the process that it runs in. This file is run as a
 script and imports nothing of ofg, so that it starts fast.
@@ -22,6 +24,7 @@ def end_with_parent() -> None:
 
 
 def main(seconds: str) -> None:
+    """Read a mesh from stdin, write its pieces to stdout; end after that many seconds."""
     end_with_parent()
     if hasattr(signal, "alarm"):
         signal.alarm(

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import platformdirs
@@ -104,7 +105,9 @@ def supports(vertices: np.ndarray, directions: int) -> np.ndarray:
     r = np.sqrt(1 - z * z)
     sphere = np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
     axes = np.concatenate([np.eye(3), -np.eye(3)])
-    return vertices[np.unique(np.argmax(vertices @ np.concatenate([axes, sphere]).T, axis=0))]
+    reached = np.argmax(vertices @ np.concatenate([axes, sphere]).T, axis=0)
+    farthest: np.ndarray = vertices[np.unique(reached)]
+    return farthest
 
 
 def _coacd(
@@ -148,7 +151,7 @@ def _outside(body: Body) -> tuple[np.ndarray, np.ndarray]:
     return surface.compact(body.vertices, f)
 
 
-def _run_apart(name: str, seconds: float, **given) -> list[np.ndarray]:
+def _run_apart(name: str, seconds: float, **given: Any) -> list[np.ndarray]:
     """CoACD's pieces as arrays of points, from a process of its own. It is spoken to through pipes,
     so that a full folder of temporary files is no fault of the body, and a kill leaves none."""
     stream = io.BytesIO()

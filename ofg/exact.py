@@ -17,16 +17,18 @@ def whole(points: np.ndarray) -> np.ndarray:
     used = mantissa != 0
     low = exponent[used].min() if used.any() else 0
     shift = np.where(used, exponent - low, 0).astype(object)
-    return np.left_shift(mantissa.astype(object), shift)
+    shifted: np.ndarray = np.left_shift(mantissa.astype(object), shift)
+    return shifted
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Row by row, of doubles or of Python integers."""
     i, j = [1, 2, 0], [2, 0, 1]
-    return a[..., i] * b[..., j] - a[..., j] * b[..., i]
+    product: np.ndarray = a[..., i] * b[..., j] - a[..., j] * b[..., i]
+    return product
 
 
-def sides(a, b, c, p) -> np.ndarray:
+def sides(a: np.ndarray, b: np.ndarray, c: np.ndarray, p: np.ndarray) -> np.ndarray:
     """(n,) of -1, 0, 1: is point p behind, in or in front of the plane of a, b, c? All (n, 3).
 
     In front is where a, b, c run counter-clockwise. Bound: Shewchuk 1997, "Adaptive precision
@@ -46,17 +48,21 @@ def sides(a, b, c, p) -> np.ndarray:
     for way in (_by_words, _by_integers):
         open_ = np.flatnonzero(~sure)
         if len(open_):
-            sign[open_], sure[open_] = way(*(x[open_] for x in (a, b, c, p)))
+            sign[open_], sure[open_] = way(a[open_], b[open_], c[open_], p[open_])
     return sign
 
 
-def _by_integers(a, b, c, p):
+def _by_integers(
+    a: np.ndarray, b: np.ndarray, c: np.ndarray, p: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     u, v, w, o = whole(np.stack([a, b, c, p]))
     exact = -((u - o) * cross(v - o, w - o)).sum(1)
-    return [(x > 0) - (x < 0) for x in exact.tolist()], True
+    return np.array([(x > 0) - (x < 0) for x in exact.tolist()]), np.ones(len(p), bool)
 
 
-def _by_words(a, b, c, p):
+def _by_words(
+    a: np.ndarray, b: np.ndarray, c: np.ndarray, p: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Where the differences to p are exact and of no more than 26 bits, as on a grid."""
     x = np.stack([a, b, c]) - p
     exact = (x + p == [a, b, c]) & (np.stack([a, b, c]) - x == p)
@@ -110,8 +116,9 @@ def volume_sign(v: np.ndarray, f: np.ndarray) -> int:
     x = whole(v)
     a, b, c = (x[f[:, i]] - x[f[0, 0]] for i in range(3))
     total = (a * cross(b, c)).sum()
-    return (total > 0) - (total < 0)
+    return int(total > 0) - int(total < 0)
 
 
-def rational(point) -> list[Fraction]:
+def rational(point: np.ndarray) -> list[Fraction]:
+    """The (3,) doubles as they are."""
     return [Fraction(float(c)) for c in point]

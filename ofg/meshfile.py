@@ -15,6 +15,7 @@ import numpy as np
 import trimesh
 
 from . import checks, plainfile
+from .plainfile import Part
 from .solid import BodyError
 
 MOST_BYTES = 512 * 2**20  #: of a file when unpacked: some ten million triangles in a binary STL
@@ -43,7 +44,7 @@ NEEDS = {
 }
 
 
-def read(path: Path, most: int = MOST_BYTES) -> list[tuple[np.ndarray, np.ndarray]]:
+def read(path: Path, most: int = MOST_BYTES) -> list[Part]:
     """(vertices (n, 3), faces (m, 3)) of each object in a mesh file, in its scene's frame.
 
     most: bytes the file may have when unpacked. BodyError for what cannot be read.
@@ -81,7 +82,7 @@ def read(path: Path, most: int = MOST_BYTES) -> list[tuple[np.ndarray, np.ndarra
         raise _unreadable(who, error) from error
 
 
-def path_of(path) -> Path:
+def path_of(path: str | os.PathLike[str]) -> Path:
     """TypeError for what is no path."""
     if isinstance(path, (str, os.PathLike)):
         return Path(path)
@@ -93,7 +94,7 @@ def name_of(path: Path) -> str:
     return Path(path.stem).stem if path.suffix.lower() in (".gz", ".bz2") else path.stem
 
 
-def parts_of(mesh, who: str) -> list[tuple[np.ndarray, np.ndarray]]:
+def parts_of(mesh: object, who: str) -> list[Part]:
     """(vertices, faces) of a Trimesh, or of each in a Scene where it is placed, or BodyError."""
     if isinstance(mesh, trimesh.Trimesh):
         return [(np.array(mesh.vertices), np.array(mesh.faces))]
@@ -117,7 +118,7 @@ def parts_of(mesh, who: str) -> list[tuple[np.ndarray, np.ndarray]]:
     return out
 
 
-def _with_faces(parts, who: str):
+def _with_faces(parts: list[Part], who: str) -> list[Part]:
     """The parts that have faces; BodyError if none has."""
     out = [(v, f) for v, f in parts if len(f)]
     if not out:
@@ -129,19 +130,21 @@ def _no_faces(points: int, who: str) -> BodyError:
     return _cloud(points, who) if points else BodyError(f"{who}: it holds no faces. {REMEDY}")
 
 
-def _placed(v, f, matrix):
+def _placed(v: np.ndarray, f: np.ndarray, matrix: np.ndarray) -> Part:
     if np.array_equal(matrix, np.eye(4)):
         return v, f
     mirrored = np.linalg.det(matrix[:3, :3]) < 0
     return v @ matrix[:3, :3].T + matrix[:3, 3], f[:, ::-1] if mirrored else f
 
 
-def _natural(name):
+def _natural(name: object) -> list[tuple[int, str]]:
     """part10 after part9."""
     return [(int(x), "") if x.isdigit() else (0, x) for x in re.split(r"(\d+)", str(name))]
 
 
-def _loaded(data: bytes | None, kind: str, who: str, path: Path | None = None, most: int = 0):
+def _loaded(
+    data: bytes | None, kind: str, who: str, path: Path | None = None, most: int = 0
+) -> list[Part]:
     """As the file has it: nothing merged, dropped or repaired."""
     if data is not None and data.lstrip()[:12] == b"ISO-10303-21":
         _require_known("step", who)
@@ -152,7 +155,7 @@ def _loaded(data: bytes | None, kind: str, who: str, path: Path | None = None, m
             _require_buffers(path, most, who)
             scene = trimesh.load_scene(path, process=False)
         else:
-            scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False)
+            scene = trimesh.load_scene(io.BytesIO(data or b""), file_type=kind, process=False)
     except ImportError as error:
         if kind not in NEEDS:
             raise _unreadable(who, error) from error
@@ -167,8 +170,8 @@ def _loaded(data: bytes | None, kind: str, who: str, path: Path | None = None, m
     return parts_of(scene, who)
 
 
-def _unzipped(data: bytes, who: str):
-    out = []
+def _unzipped(data: bytes, who: str) -> list[Part]:
+    out: list[Part] = []
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         for name in sorted(archive.namelist(), key=_natural):
             kind = Path(name).suffix.lower().lstrip(".")

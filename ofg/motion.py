@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import checks
 from .frozen import Frozen
@@ -30,7 +31,7 @@ class Motion(Frozen):
     angle: float = 0.0
     about: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("displacement", "axis", "about"):
             vector = checks.vector(getattr(self, name), 3, f"Motion.{name}")
             object.__setattr__(self, name, vector)
@@ -44,12 +45,20 @@ class Motion(Frozen):
             checks.direction(self.axis, "Motion.axis")
 
     @classmethod
-    def degrees(cls, displacement=(0, 0, 0), axis=(0, 0, 1), angle: float = 0.0, about=(0, 0, 0)) -> Motion:
+    def degrees(
+        cls,
+        displacement: ArrayLike = (0, 0, 0),
+        axis: ArrayLike = (0, 0, 1),
+        angle: float = 0.0,
+        about: ArrayLike = (0, 0, 0),
+    ) -> Motion:
         """A motion whose angle is given in degrees, rounded to double radians."""
-        return cls(displacement, axis, math.radians(checks.number(angle, "angle")), about)
+        vectors = {"displacement": displacement, "axis": axis, "about": about}
+        radians = math.radians(checks.number(angle, "angle"))
+        return cls(angle=radians, **{k: checks.vector(v, 3, f"Motion.{k}") for k, v in vectors.items()})
 
     @classmethod
-    def between(cls, pose0: Pose, pose1: Pose, about=(0, 0, 0)) -> Motion:
+    def between(cls, pose0: Pose, pose1: Pose, about: ArrayLike = (0, 0, 0)) -> Motion:
         """The motion at constant velocity from one pose to another, as FCL, Bullet and Box2D state it; in double rounding.
 
         The body turns by the shorter way, at most half a turn, about its point `about`, which moves on a straight line.

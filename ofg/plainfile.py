@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from .polygons import triangulated
 
 Part = tuple[np.ndarray, np.ndarray]  #: (vertices (n, 3), faces (m, 3))
+#: (name, type, type of its count or None) of each property of an element
+Properties = list[tuple[str, str, str | None]]
+#: the values of each property of an element
+Columns = Mapping[str, np.ndarray | list[Any]]
 PLY_TYPES = {
     **dict(char="i1", int8="i1", uchar="u1", uint8="u1", short="i2", int16="i2", ushort="u2"),
     **dict(uint16="u2", int="i4", int32="i4", uint="u4", uint32="u4", float="f4", float32="f4"),
@@ -88,16 +94,17 @@ def _off(text: str) -> list[Part]:
     return [(v, _checked(v, faces))]
 
 
-def _checked(v: np.ndarray, polygons: list) -> np.ndarray:
-    ends = polygons
+def _checked(v: np.ndarray, polygons: list[list[int]] | np.ndarray) -> np.ndarray:
     if isinstance(polygons, list):
-        ends = [(min(p), max(p)) for p in polygons if p]
+        ends = np.array([(min(p), max(p)) for p in polygons if p])
+    else:
+        ends = polygons
     if len(ends) and not 0 <= np.min(ends) <= np.max(ends) < len(v):
         raise Damaged(f"a face names a vertex that is not one of 0 to {len(v) - 1}")
     return triangulated(v, polygons)
 
 
-def _floats(rows: list) -> np.ndarray:
+def _floats(rows: Sequence[Sequence[str]]) -> np.ndarray:
     if any(len(row) != 3 for row in rows):
         raise Damaged("a vertex has fewer than three coordinates")
     try:
@@ -127,9 +134,10 @@ def _ply(data: bytes) -> list[Part]:
     return [(v, _checked(v, polygons))]
 
 
-def _ply_header(head: str):
-    """(form, [(element, count, [(property, type, type of its count or None)])])"""
-    form, elements = "", []
+def _ply_header(head: str) -> tuple[str, list[tuple[str, int, Properties]]]:
+    """(form, [(element, count, its properties)])."""
+    form = ""
+    elements: list[tuple[str, int, Properties]] = []
     for words in map(str.split, head.splitlines()):
         try:
             if words[:1] == ["format"]:
@@ -151,14 +159,14 @@ class _PlyText:
     def __init__(self, body: bytes):
         self.words, self.at = body.split(), 0
 
-    def take(self, n: int) -> list:
+    def take(self, n: int) -> list[bytes]:
         self.at += n
         if self.at > len(self.words) or n < 0:
             raise Damaged("it ends before its elements do")
         return self.words[self.at - n : self.at]
 
-    def element(self, count: int, properties: list) -> dict:
-        out: dict = {name: [] for name, _, _ in properties}
+    def element(self, count: int, properties: Properties) -> Columns:
+        out: dict[str, list[Any]] = {name: [] for name, _, _ in properties}
         try:
             if not any(listed for _, _, listed in properties):
                 rows = np.array(self.take(count * len(properties)), dtype=object).astype(float)
@@ -178,7 +186,7 @@ class _PlyBytes:
     def __init__(self, body: bytes, form: str):
         self.body, self.at, self.end = body, 0, "<" if "little" in form else ">"
 
-    def take(self, kind, n: int) -> np.ndarray:
+    def take(self, kind: Any, n: int) -> np.ndarray:
         kind = np.dtype(kind)
         if n < 0 or self.at + n * kind.itemsize > len(self.body):
             raise Damaged("it ends before its elements do")
@@ -186,16 +194,17 @@ class _PlyBytes:
         self.at += n * kind.itemsize
         return out
 
-    def element(self, count: int, properties: list) -> dict:
+    def element(self, count: int, properties: Properties) -> Columns:
         if not any(listed for _, _, listed in properties):
             kind = [(name, self.end + type_) for name, type_, _ in properties]
-            rows = self.take(kind, count) if kind else np.empty(0)
-            return {name: rows[name] for name, _, _ in properties}
+            rows = self.take(kind, count) if kind else None
+            return {} if rows is None else {name: rows[name] for name, _, _ in properties}
         return self._alike(count, properties) or self._one_by_one(count, properties)
 
-    def _alike(self, count: int, properties: list) -> dict | None:
+    def _alike(self, count: int, properties: Properties) -> Columns | None:
         """Rows whose lists are all as long as those of the first row, which most files have."""
-        start, kind = self.at, []
+        start = self.at
+        kind: list[tuple[Any, ...]] = []
         first = self._one_by_one(min(count, 1), properties)
         self.at = start
         for name, type_, listed in properties:
@@ -210,8 +219,8 @@ class _PlyBytes:
         self.at = start
         return None
 
-    def _one_by_one(self, count: int, properties: list) -> dict:
-        out: dict = {name: [] for name, _, _ in properties}
+    def _one_by_one(self, count: int, properties: Properties) -> Columns:
+        out: dict[str, list[Any]] = {name: [] for name, _, _ in properties}
         for _ in range(count):
             for name, type_, listed in properties:
                 n = int(self.take(self.end + listed, 1)[0]) if listed else 1

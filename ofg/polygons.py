@@ -9,7 +9,7 @@ import numpy as np
 from . import exact
 
 
-def triangulated(v: np.ndarray, polygons: Sequence[Sequence[int]]) -> np.ndarray:
+def triangulated(v: np.ndarray, polygons: Sequence[Sequence[int]] | np.ndarray) -> np.ndarray:
     """(m, 3) the triangles of polygons given by their vertices, in order: of convex ones a fan.
 
     A fan of a concave polygon has triangles outside it, which would be surface that can be touched.
@@ -20,10 +20,10 @@ def triangulated(v: np.ndarray, polygons: Sequence[Sequence[int]]) -> np.ndarray
     counts = np.array([len(p) for p in polygons], int)
     if (counts == 3).all() and len(counts):
         return np.array(polygons, np.int64)
-    rows: list = [()] * len(polygons)
+    rows: list[Sequence[Sequence[int]] | np.ndarray] = [()] * len(polygons)
     for n in np.unique(counts[counts > 2]):
         at = np.flatnonzero(counts == n)
-        p = np.array([polygons[i] for i in at])
+        p = np.array([polygons[i] for i in at.tolist()])
         fans = np.stack([p[:, [0, k, k + 1]] for k in range(1, n - 1)], axis=1)
         fair = np.ones(len(p), bool) if n == 3 else _convex(v[p])
         for i, polygon, fan, whole in zip(at, p, fans, fair):
@@ -37,13 +37,15 @@ def _convex(corners: np.ndarray) -> np.ndarray:
     sides = np.roll(corners, -1, axis=1) - corners
     turns = exact.cross(np.roll(sides, 1, axis=1), sides)
     normal = _normal(corners)[:, None]
-    return ((turns * normal).sum(axis=2) >= 0).all(axis=1)
+    convex: np.ndarray = ((turns * normal).sum(axis=2) >= 0).all(axis=1)
+    return convex
 
 
 def _normal(corners: np.ndarray) -> np.ndarray:
     """(k, 3) twice the areas of polygons (k, n, 3), as vectors."""
     out = corners - corners[:, :1]
-    return exact.cross(out, np.roll(out, -1, axis=1)).sum(axis=1)
+    normal: np.ndarray = exact.cross(out, np.roll(out, -1, axis=1)).sum(axis=1)
+    return normal
 
 
 def _clipped(corners: np.ndarray, ids: np.ndarray) -> np.ndarray:
@@ -57,7 +59,8 @@ def _clipped(corners: np.ndarray, ids: np.ndarray) -> np.ndarray:
         ear = next((k for k in range(len(left)) if _is_ear(flat[left], k)), 0)
         out.append(left[[ear - 1, ear, (ear + 1) % len(left)]])
         left = np.delete(left, ear)
-    return ids[np.array([*out, left])]
+    clipped: np.ndarray = ids[np.array([*out, left])]
+    return clipped
 
 
 def _is_ear(ring: np.ndarray, k: int) -> bool:
@@ -70,5 +73,7 @@ def _is_ear(ring: np.ndarray, k: int) -> bool:
     return all((x == a).all() or (x == b).all() or (x == c).all() for x in rest)
 
 
-def _turn(p, q, r):
-    return (q[0] - p[0]) * (r[..., 1] - p[1]) - (q[1] - p[1]) * (r[..., 0] - p[0])
+def _turn(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> np.ndarray:
+    """Twice the signed area of p, q, r: (2,) each; r may be (n, 2)."""
+    turn: np.ndarray = (q[0] - p[0]) * (r[..., 1] - p[1]) - (q[1] - p[1]) * (r[..., 0] - p[0])
+    return turn

@@ -26,7 +26,7 @@ class Pose(Frozen):
     quaternion: np.ndarray = field(default_factory=lambda: np.array([1.0, 0.0, 0.0, 0.0]))
     position: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         quaternion = checks.vector(self.quaternion, 4, "Pose.quaternion")
         object.__setattr__(self, "quaternion", quaternion)
         object.__setattr__(self, "position", checks.vector(self.position, 3, "Pose.position"))
@@ -56,7 +56,8 @@ class Pose(Frozen):
 
     def apply(self, points: np.ndarray) -> np.ndarray:
         """(n, 3) body points -> (n, 3) world points."""
-        return checks.points(points, "points") @ self.rotation.T + self.position
+        placed: np.ndarray = checks.points(points, "points") @ self.rotation.T + self.position
+        return placed
 
 
 def near_one(v: np.ndarray) -> np.ndarray:

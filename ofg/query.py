@@ -30,7 +30,7 @@ class Query:
     motion: Motion = field(default_factory=Motion)
     motion_b: Motion = field(default_factory=Motion)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         checks.one_of("Query.question", self.question, QUESTIONS)
         for name in ("a", "b"):
             checks.body(getattr(self, name), f"Query.{name}")

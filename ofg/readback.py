@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import checks, solid, surface, winding
 from .body import Body, BodyError
@@ -12,7 +13,14 @@ from .body import Body, BodyError
 MOST = 20_000_000  #: vertices, faces or pieces of a body
 
 
-def body(kind, vertices, faces, piece_vertices=(), piece_faces=(), name: str = "body") -> Body:
+def body(
+    kind: str,
+    vertices: ArrayLike,
+    faces: ArrayLike,
+    piece_vertices: ArrayLike = (),
+    piece_faces: ArrayLike = (),
+    name: str = "body",
+) -> Body:
     """The body that these arrays are of, unchanged. BodyError where no constructor would have made it.
 
     vertices: 3 n numbers or (n, 3). faces: 3 m indices or (m, 3); of a union those of its pieces,
@@ -43,7 +51,7 @@ def body(kind, vertices, faces, piece_vertices=(), piece_faces=(), name: str = "
     return Body._of("union", v, f, tuple(pieces), name)
 
 
-def _threes(values, what: str, who: str) -> np.ndarray:
+def _threes(values: ArrayLike, what: str, who: str) -> np.ndarray:
     """(n, 3): a flat list in threes."""
     try:
         array = np.asarray(values)
@@ -57,7 +65,7 @@ def _threes(values, what: str, who: str) -> np.ndarray:
     return array.reshape(-1, 3)
 
 
-def _ends(counts, total: int, what: str, who: str) -> np.ndarray:
+def _ends(counts: ArrayLike, total: int, what: str, who: str) -> np.ndarray:
     """Where each piece begins, then the end."""
     try:
         n = np.asarray(counts)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sized
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from . import checks, exact, surface, winding
@@ -21,7 +23,7 @@ class BodyWarning(UserWarning):
     """A notice that a mesh was changed to make a body of it: its faces were turned outward."""
 
 
-def points(vertices, who: str, least: int = 4) -> np.ndarray:
+def points(vertices: ArrayLike, who: str, least: int = 4) -> np.ndarray:
     """(n, 3) finite doubles, or BodyError."""
     try:
         v = checks.reals(vertices)
@@ -43,7 +45,7 @@ def points(vertices, who: str, least: int = 4) -> np.ndarray:
     return v
 
 
-def triangles(faces, n: int, who: str) -> np.ndarray:
+def triangles(faces: ArrayLike, n: int, who: str) -> np.ndarray:
     """(m, 3) int64 indices below n, or BodyError."""
     try:
         f = np.asarray(faces)
@@ -81,7 +83,8 @@ def closed(v: np.ndarray, f: np.ndarray, who: str) -> tuple[np.ndarray, np.ndarr
     return v, outward(v, f, who)
 
 
-def require_volume(faces, who: str) -> None:
+def require_volume(faces: Sized, who: str) -> None:
+    """BodyError where no faces are left."""
     if not len(faces):
         raise BodyError(
             f"{who}: its faces lie in planes and cancel each other, so that they enclose nothing. "
@@ -193,12 +196,15 @@ def outward(v: np.ndarray, f: np.ndarray, who: str) -> np.ndarray:
 
 
 def notice_turned(who: str) -> None:
+    """The BodyWarning of a surface that was turned."""
     warnings.warn(
         f"{who}: the mesh is inside-out; its faces are turned outward.", BodyWarning, stacklevel=6
     )
 
 
-def _wrong(v, f, shell, asked, way: int) -> int | None:
+def _wrong(
+    v: np.ndarray, f: np.ndarray, shell: np.ndarray, asked: np.ndarray, way: int
+) -> int | None:
     """The first of the shells asked at which the winding number, times `way`, is below 0."""
     broad = ~exact.flat(v, f)
     for i in asked:
@@ -232,7 +238,7 @@ def is_convex(v: np.ndarray, f: np.ndarray) -> bool:
     return _all_behind(v, f, surface.coplanar(v, f, e).reshape(-1), broad)
 
 
-def _all_behind(v, f, plane, broad) -> bool:
+def _all_behind(v: np.ndarray, f: np.ndarray, plane: np.ndarray, broad: np.ndarray) -> bool:
     """Is every vertex on or behind every plane? plane: (m,) a number for the plane of each face.
 
     Vertices come in blocks of neighbours: one whose ball is behind a plane needs no further look.
@@ -266,8 +272,6 @@ def _all_behind(v, f, plane, broad) -> bool:
     return True
 
 
-def _behind(v, f, g) -> bool:
-    return all(
-        (exact.sides(*(v[f[:, k]] for k in range(3)), v[g[:, corner]]) <= 0).all()
-        for corner in range(3)
-    )
+def _behind(v: np.ndarray, f: np.ndarray, g: np.ndarray) -> bool:
+    a, b, c = (v[f[:, k]] for k in range(3))
+    return all((exact.sides(a, b, c, v[g[:, k]]) <= 0).all() for k in range(3))

@@ -129,7 +129,8 @@ def _needed(f: np.ndarray) -> np.ndarray:
     line = groups(e.face, e.key, len(f))
     for number in np.unique(line):
         mine = line[e.face] == number
-        low, net = np.sort(ends[mine], axis=1), {}
+        low = np.sort(ends[mine], axis=1)
+        net: dict[tuple[int, int], int] = {}
         for (a, b), way in zip(low.tolist(), e.way[mine].tolist()):
             net[a, b] = net.get((a, b), 0) + way
         chain = [(a, b) if n > 0 else (b, a) for (a, b), n in net.items() for _ in range(abs(n))]
@@ -168,9 +169,9 @@ def _in_one_plane(v: np.ndarray, f: np.ndarray) -> bool:
     broad = np.flatnonzero(~exact.flat(v, f))
     if not len(broad):
         return True
-    corners = v[f[broad[0]]]
+    a, b, c = v[f[broad[0]]][:, None]
     for many in (slice(8), slice(None)):  # most shells are not flat, and a few vertices tell
-        if exact.sides(*corners[:, None], v[np.unique(f)][many]).any():
+        if exact.sides(a, b, c, v[np.unique(f)][many]).any():
             return False
     return True
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from . import exact, surface, winding
@@ -9,10 +11,12 @@ from . import exact, surface, winding
 MOST_CUTS = 5000  #: pairs of faces that cut each other; beyond it no volume is worked out
 THIN = 1e-12  #: cuts shorter than this share of the size are passed over
 NEAR = 1e-14  #: of the largest coordinate: so near to a plane it may be off by rounding alone
+Cutters = dict[int, list[tuple[int, bool]]]  #: (other face, whether in the same plane) of each cut
+Reach = tuple[float, float]  #: an interval along a direction
 
 
 class TooManyCuts(ValueError):
-    pass
+    """The surface cuts itself too often for its volume to be worked out."""
 
 
 def solid_volume(v: np.ndarray, f: np.ndarray) -> float:
@@ -35,7 +39,7 @@ def solid_volume(v: np.ndarray, f: np.ndarray) -> float:
     return total * size**3
 
 
-def _weights(v, f, cutters):
+def _weights(v: np.ndarray, f: np.ndarray, cutters: Cutters) -> tuple[np.ndarray, np.ndarray]:
     """For each face whether the solid is behind it (1), in front (-1) or on both sides or none (0);
     and which faces are cut, whose pieces differ."""
     cut = np.zeros(len(f), bool)
@@ -56,9 +60,9 @@ def _weights(v, f, cutters):
     return weight, cut
 
 
-def _cuts(v, f, size) -> dict[int, list]:
+def _cuts(v: np.ndarray, f: np.ndarray, size: float) -> Cutters:
     """For each face that others cut: (other face, whether it lies in the same plane)."""
-    found: dict[int, list] = {}
+    found: Cutters = {}
     count, plane = 0, surface.coplanar(v, f, surface.Edges(f)).reshape(-1)
     for i, j in _near(v, f):
         for one, other, level in _cutting(v, f, i, j, plane, THIN * size):
@@ -69,7 +73,9 @@ def _cuts(v, f, size) -> dict[int, list]:
     return found
 
 
-def _cutting(v, f, i, j, plane, least):
+def _cutting(
+    v: np.ndarray, f: np.ndarray, i: np.ndarray, j: np.ndarray, plane: np.ndarray, least: float
+) -> Iterator[tuple[int, int, bool]]:
     """(cut face, the other, in one plane?) of those of the pairs i, j (n,) that share a line."""
     level = plane[i] == plane[j]
     of_i, of_j = np.zeros((2, len(i), 3), np.int8)
@@ -96,17 +102,19 @@ def _cutting(v, f, i, j, plane, least):
         yield int(j[k]), int(i[k]), True
 
 
-def _passes(signs):
+def _passes(signs: np.ndarray) -> np.ndarray:
     """Strictly on both sides of a plane."""
-    return (signs > 0).any(axis=1) & (signs < 0).any(axis=1)
+    passes: np.ndarray = (signs.min(axis=1) < 0) & (signs.max(axis=1) > 0)
+    return passes
 
 
-def _reaches(signs):
+def _reaches(signs: np.ndarray) -> np.ndarray:
     """Has more than one point in a plane."""
-    return _passes(signs) | ((signs == 0).sum(axis=1) >= 2)
+    reaches: np.ndarray = _passes(signs) | (np.count_nonzero(signs == 0, axis=1) >= 2)
+    return reaches
 
 
-def _signs(v, f, i, j):
+def _signs(v: np.ndarray, f: np.ndarray, i: np.ndarray, j: np.ndarray) -> np.ndarray:
     """(n, 3): the sides of face i that the corners of face j are on; 0 for what is in its plane, or
     so near that a turn of both may have put it there by rounding."""
     a, b, c = (v[f[i, k]] for k in range(3))
@@ -118,7 +126,7 @@ def _signs(v, f, i, j):
     return out
 
 
-def _near(v, f):
+def _near(v: np.ndarray, f: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Pairs (i, j) of faces whose boxes meet, in batches: swept along the longest side."""
     low, high = v[f].min(axis=1), v[f].max(axis=1)
     axis = int(np.argmax(np.ptp(v, axis=0)))
@@ -128,7 +136,8 @@ def _near(v, f):
     for place, i in enumerate(order):
         j = order[place + 1 : end[place]]
         j = j[((low[j] <= high[i]) & (high[j] >= low[i])).all(axis=1)]
-        first.append(np.full(len(j), i)), second.append(j)
+        first.append(np.full(len(j), i))
+        second.append(j)
         count += len(j)
         if count > 100_000:
             yield np.concatenate(first), np.concatenate(second)
@@ -137,12 +146,14 @@ def _near(v, f):
         yield np.concatenate(first), np.concatenate(second)
 
 
-def _plane(t):
+def _plane(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     n = np.cross(t[1] - t[0], t[2] - t[0])
     return t[0], n / np.linalg.norm(n)
 
 
-def _section(points, at, n, along):
+def _section(
+    points: np.ndarray, at: np.ndarray, n: np.ndarray, along: np.ndarray
+) -> Reach | None:
     """The interval along a direction of a convex polygon in the plane through `at`, or None."""
     height = (points - at) @ n
     ends = []
@@ -152,24 +163,27 @@ def _section(points, at, n, along):
     return (min(ends), max(ends)) if ends else None
 
 
-def _common(s, t, of_s, of_t) -> np.ndarray:
+def _common(s: np.ndarray, t: np.ndarray, of_s: np.ndarray, of_t: np.ndarray) -> np.ndarray:
     """(n,) the length of the segment that triangles s, t (n, 3, 3) in different planes share, 0 or
     less if none; of_s, of_t: (n, 3) the sides of the other's plane that their corners are on."""
     n, m = _normals(s), _normals(t)
     along = np.cross(n, m)
     along /= np.linalg.norm(along, axis=1)[:, None]
-    (low_s, high_s), (low_t, high_t) = _reach(s, of_s, t[:, 0], m, along), _reach(
-        t, of_t, s[:, 0], n, along
-    )
-    return np.minimum(high_s, high_t) - np.maximum(low_s, low_t)
+    low_s, high_s = _reach(s, of_s, t[:, 0], m, along)
+    low_t, high_t = _reach(t, of_t, s[:, 0], n, along)
+    length: np.ndarray = np.minimum(high_s, high_t) - np.maximum(low_s, low_t)
+    return length
 
 
-def _normals(t):
+def _normals(t: np.ndarray) -> np.ndarray:
     n = exact.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
-    return n / np.linalg.norm(n, axis=1)[:, None]
+    unit: np.ndarray = n / np.linalg.norm(n, axis=1)[:, None]
+    return unit
 
 
-def _reach(t, of, at, n, along):
+def _reach(
+    t: np.ndarray, of: np.ndarray, at: np.ndarray, n: np.ndarray, along: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """The intervals along directions of triangles in planes; corners are on the sides `of`."""
     height = ((t - at[:, None]) * n[:, None]).sum(axis=2)
     place = (t * along[:, None]).sum(axis=2)
@@ -187,7 +201,7 @@ def _reach(t, of, at, n, along):
     return low, high
 
 
-def _overlap(s, t, least) -> np.ndarray:
+def _overlap(s: np.ndarray, t: np.ndarray, least: float) -> np.ndarray:
     """(n,) bool: do triangles s, t (n, 3, 3) in one plane share more than a line?"""
     n, out = _normals(s), np.ones(len(s), bool)
     for one, other in ((s, t), (t, s)):
@@ -203,7 +217,9 @@ def _overlap(s, t, least) -> np.ndarray:
     return out
 
 
-def _split(v, f, face, cutters, size):
+def _split(
+    v: np.ndarray, f: np.ndarray, face: int, cutters: list[tuple[int, bool]], size: float
+) -> tuple[np.ndarray, np.ndarray]:
     """((n, 3, 3) triangles, (n,) weights) of a face in the pieces that the others cut it into."""
     corners = v[f[face]]
     at, n = _plane(corners)
@@ -225,14 +241,21 @@ def _split(v, f, face, cutters, size):
     return np.array(triangles), np.array(weights)
 
 
-def _walls(t, n):
+def _walls(t: np.ndarray, n: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Planes through the edges of a triangle, upright on it."""
     for p, q in zip(t, np.roll(t, -1, axis=0)):
         m = np.cross(q - p, n)
         yield p, m / np.linalg.norm(m)
 
 
-def _halves(piece, p, m, along, reach, least):
+def _halves(
+    piece: np.ndarray,
+    p: np.ndarray,
+    m: np.ndarray,
+    along: np.ndarray,
+    reach: Reach | np.ndarray,
+    least: float,
+) -> list[np.ndarray]:
     """A convex polygon cut by a plane, if the cut is within reach and not thin."""
     height = (piece - p) @ m
     if height.max() <= least or height.min() >= -least:
@@ -240,7 +263,7 @@ def _halves(piece, p, m, along, reach, least):
     chord = _section(piece, p, m, along)
     if chord is None or chord[1] <= reach[0] or chord[0] >= reach[1]:
         return [piece]
-    sides: tuple[list, list] = ([], [])
+    sides: tuple[list[np.ndarray], list[np.ndarray]] = ([], [])
     for a, b, ha, hb in zip(piece, np.roll(piece, -1, axis=0), height, np.roll(height, -1)):
         for side, sign in zip(sides, (1, -1)):
             if sign * ha >= 0:
@@ -250,7 +273,9 @@ def _halves(piece, p, m, along, reach, least):
     return [np.array(side) for side in sides if len(side) > 2]
 
 
-def _weight(v, f, face, level, piece, n) -> int:
+def _weight(
+    v: np.ndarray, f: np.ndarray, face: int, level: list[int], piece: np.ndarray, n: np.ndarray
+) -> int:
     for shares in (
         np.ones(len(piece)),
         1 + np.arange(len(piece)),
@@ -266,10 +291,10 @@ def _weight(v, f, face, level, piece, n) -> int:
         except winding.Unclear:
             continue
         back = front + 1 + sum(way for _, way in on)
-        return (back != 0) - (front != 0)
+        return int(back != 0) - int(front != 0)
     return 0  # on other edges wherever it is looked at: too thin to tell, and to matter
 
 
-def _holds(t, p) -> bool:
+def _holds(t: np.ndarray, p: np.ndarray) -> bool:
     n = _plane(t)[1]
     return all(np.cross(t[(k + 1) % 3] - t[k], p - t[k]) @ n > 0 for k in range(3))

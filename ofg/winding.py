@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -11,6 +12,7 @@ from . import exact, surface
 # Directions of rays: small whole numbers that few edges are parallel to.
 RAYS = ((3, 5, 7), (-7, 4, 3), (5, -8, 6), (-2, -7, 9), (11, 3, -8), (1, 12, -5), (-9, -4, -13))
 WEIGHTS = ((1, 1, 1), (2, 1, 1), (1, 3, 2), (5, 2, 3), (2, 3, 7))  #: points of a face
+Vector = Sequence[Fraction]  #: of three
 MOST_CUTS = 4000  #: faces cut by others that a volume is worked out for
 
 
@@ -28,9 +30,9 @@ def beside(v: np.ndarray, f: np.ndarray, face: int) -> tuple[int, int, bool]:
     for weights in WEIGHTS:
         corners = [exact.rational(v[i]) for i in f[face]]
         all_ = sum(weights)
-        p = [sum(w * c[i] for w, c in zip(weights, corners)) / all_ for i in range(3)]
+        p = [sum((w * c[i] for w, c in zip(weights, corners)), Fraction()) / all_ for i in range(3)]
         try:
-            ahead, on = _ahead(v, f, p, _normal(corners), np.array([face]))
+            ahead, on = _ahead(v, f, p, _normal(corners), [face])
         except Unclear:
             continue
         return ahead, ahead + 1 + sum(way for _, way in on), all(i > face for i, _ in on)
@@ -50,7 +52,13 @@ def at(v: np.ndarray, f: np.ndarray, points: np.ndarray) -> np.ndarray:
     return out
 
 
-def _ahead(v, f, p, normal=None, skip=()):
+def _ahead(
+    v: np.ndarray,
+    f: np.ndarray,
+    p: Vector,
+    normal: Vector | None = None,
+    skip: Iterable[int] = (),
+) -> tuple[int, list[tuple[int, int]]]:
     """(crossings, on): signed crossings of a ray from p with all faces but `skip`; the faces that p
     lies inside, with the way each runs compared with `normal`. p: three Fractions. The ray leaves
     to the side that `normal` points to. Unclear where p is on an edge, or no ray tells."""
@@ -93,10 +101,12 @@ class _Grazed(Exception):
     """The ray goes through an edge, a vertex or the plane of a face."""
 
 
-def _crossed(corners, p, d, normal):
+def _crossed(
+    corners: np.ndarray, p: Vector, ray: np.ndarray, normal: Vector | None
+) -> tuple[int, int]:
     """(crossing, way) of one face, by rationals."""
     w = [[c - q for c, q in zip(exact.rational(x), p)] for x in corners]
-    d = [Fraction(float(c)) for c in d]
+    d = exact.rational(ray)
     area = _cross([b - a for a, b in zip(w[0], w[1])], [b - a for a, b in zip(w[0], w[2])])
     if not any(area):
         return 0, 0
@@ -116,16 +126,16 @@ def _crossed(corners, p, d, normal):
     return ((1 if up else -1) if up == (height > 0) else 0), 0
 
 
-def _normal(corners):
+def _normal(corners: Sequence[Vector]) -> list[Fraction]:
     a, b, c = corners
     return _cross([q - p for p, q in zip(a, b)], [q - p for p, q in zip(a, c)])
 
 
-def _cross(a, b):
+def _cross(a: Vector, b: Vector) -> list[Fraction]:
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
-def _dot(a, b):
+def _dot(a: Vector, b: Vector) -> Fraction:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
-from .outcome import JUDGED, judge, out_of_their_depth, outcomes, with_pieces
+from .outcome import JUDGED, judge, out_of_their_depth, outcomes, with_pieces  # noqa: F401
 from experiments.run.folder.store import Store
 from experiments.run.timing import FLOOR, LOST, PROBE
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, Optional
 
@@ -21,7 +22,7 @@ from experiments.run.processes.machine import ERRNOS, MachineError
 from .reading import opened, reading
 from experiments.run.folder.store import Store, StoreError
 
-app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", pretty_exceptions_enable=False, add_completion=False,
+app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", pretty_exceptions_enable=False,
                   help="""Benchmark collision detection on cases whose true answers are certified.
 
 A run is one folder: `ofg-bench run quick` makes cases, certifies them, asks every method, takes times and prints the tables.
@@ -33,6 +34,19 @@ SkipMissing = Annotated[bool, typer.Option("--skip-missing", help="leave rows of
 Trust = Annotated[bool, typer.Option("--trust", help="run the Python files that the run names as its own methods and scenarios")]
 Methods = Annotated[Optional[list[Path]], typer.Option("--methods", help="Python file with methods of your own (METHODS = [...]); may be repeated")]
 Scenarios = Annotated[Optional[list[Path]], typer.Option("--scenarios", help="Python file with scenarios of your own (SCENARIO = ...); may be repeated")]
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        print(f"ofg-bench {version('ofg')}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version_: Annotated[bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")] = False,
+) -> None:
+    """What stands before a command."""
 
 
 @app.command("list")
@@ -123,17 +137,18 @@ def findings(
     objections: Annotated[Optional[Path], typer.Option(help="write the page of objections and answers here, and no findings")] = None,
 ) -> None:
     """Say what the runs of a folder found: each claim of the article with its verdict, then each engine. What is missing is said to be."""
-    from experiments.publish import findings as found
+    from experiments.publish.findings import Runs, page
+    from experiments.publish.findings import objections as objections_page
 
     if not results.is_dir():
         raise configuration.ConfigError(f"The folder {results} does not exist. Name the one that ofg-bench reproduce made.")
     with reading(results):
-        page = found.page(results) if objections is None else found.objections.page(found.Runs(results))
+        text = page(results) if objections is None else objections_page.page(Runs(results))
     into = into or objections
     if into is None:
-        print(page, end="")
+        print(text, end="")
         return
-    into.write_text(page)
+    into.write_text(text)
     console.print(f"The page is {markup(into)}.")
 
 
@@ -177,12 +192,13 @@ def tables(
     """Build the tables of a finished run anew from its rows, and print them."""
     from experiments.analysis import outcome
     from experiments.publish import readme
-    from experiments.analysis.tables import tables as made
+    from experiments.analysis.tables.tables import build
+    from experiments.analysis.tables.tables import save as save_tables
 
     with reading(run_):
         store = opened(run_, trust)
-        found = list(made.build(store))
-        made.save(store, found)
+        found = list(build(store))
+        save_tables(store, found)
         if store.has("observations.parquet"):
             outcome.save(store)
     for table in found:
@@ -204,16 +220,17 @@ def compare(
 
     Exit code 0 if accuracy is identical over the same cases and methods, 1 if not.
     """
-    from experiments.analysis import compare as comparing
+    from experiments.analysis.compare import compare as differences
+    from experiments.analysis.compare import reference
 
     if accept and not Store(first).has("config.json"):
         with reading(second):
-            comparing.reference(opened(second, trust), Store(first))
+            reference(opened(second, trust), Store(first))
         console.print(f"{markup(first)} is now the reference, made from {markup(second)}.")
         return
     with reading(first, second):
         before, after = opened(first, trust), opened(second, trust)
-        found = comparing.compare(before, after)
+        found = differences(before, after)
     for what, (left, right) in (("cases", found.only_cases), ("methods", found.only_methods)):
         for names, folder in ((left, first), (right, second)):
             if names:
@@ -237,7 +254,7 @@ def compare(
                   f"labels moved{'' if found.same_content else '; the runs differ in their cases or methods'}"
                   f"{f'; {len(found.changed)} cases ask a different question' if found.changed else ''}.", highlight=False)
     if accept:
-        comparing.reference(after, before)
+        reference(after, before)
         console.print(f"{markup(first)} is now the reference, made from {markup(second)}.")
         return
     raise typer.Exit(0 if found.identical else 1)
@@ -255,24 +272,24 @@ def _moved(before, after) -> str:
 def figures(run_: Run, trust: Trust = False) -> None:
     """Draw the figures of a finished run anew."""
     from experiments.analysis.plots import curves
-    from experiments.analysis.plots import figures as drawn
-    from experiments.analysis.tables import tables as made
+    from experiments.analysis.plots.figures import accuracy_speed
+    from experiments.analysis.tables.tables import build
 
     with reading(run_):
         store = opened(run_, trust)
-        curves.save(store, list(made.build(store)))
+        curves.save(store, list(build(store)))
         if store.has("timings.parquet"):
-            drawn.accuracy_speed(store)
+            accuracy_speed(store)
     console.print(f"Figures are in {markup(run_ / 'figures')}.")
 
 
 @app.command()
 def report(run_: Run, trust: Trust = False) -> None:
     """Write report.html of a finished run anew: one file with everything, for any browser."""
-    from experiments.publish.report import report as written
+    from experiments.publish.report import report as write_report
 
     with reading(run_):
-        written(opened(run_, trust))
+        write_report(opened(run_, trust))
     console.print(f"The report is {markup(run_ / 'report.html')}.")
 
 
@@ -289,15 +306,16 @@ def explain(
     trust: Trust = False,
 ) -> None:
     """Show one case: a page with its bodies in 3D and its certificate, and a table of what every method said."""
-    from experiments.publish.report import explain as explained
+    from experiments.publish.report.request import Request, show
 
     if (run_ is None) == (file is None) or (run_ is not None and name is None):
         raise configuration.ConfigError("Name a case and its run (ofg-bench explain thin_wall/100/0007 --run results/runs/quick), or a file (ofg-bench explain --file case.json).")
     _extend(methods, None)
     with reading(run_ or file):
         store = opened(run_, trust) if run_ else None
-        explained.command(name, store, file, out, save, ask or bool(method), tuple(method or ()), tuple(map(str, methods or ())), trust,
-                          _print_grid, console.print)
+        request = Request(name, store, file, tuple(method or ()), tuple(map(str, methods or ())),
+                          ask or bool(method), trust)
+        show(request, out, save, _print_grid, console.print)
 
 
 @app.command()

@@ -55,7 +55,7 @@ def begin(store: Store, config: RunConfig) -> None:
     before, code = facts(store), origin.code()
     if before and before.get("code") != code:
         say(f"The run in {store.folder} was begun with another state of the code; what it had finished is made again.")
-    own = {name: digest for name, digest in zip(ownfile.copies(config), ownfile.digests(config.method_files + config.scenario_files))}
+    own = dict(zip(ownfile.copies(config), ownfile.digests(config.method_files + config.scenario_files)))
     note(store, started=before.get("started", manifest.now()), commit=manifest.commit(), code=code, versions=manifest.versions(config),
          build=manifest.build(), before=manifest.machine(), **({"own_files": own} if own else {}),
          **declared.of(config))

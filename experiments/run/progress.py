@@ -29,9 +29,9 @@ class Forecast:
 
     def __init__(self, plan: dict[str, float], clock: Callable[[], float] = time.monotonic):
         self.plan, self.clock = dict(plan), clock
-        self.done = {name: 0.0 for name in plan}  # share of each stage
-        self.spent = {name: 0.0 for name in plan}
-        self.already = {name: 0.0 for name in plan}  # share that an earlier, interrupted run has done
+        self.done = dict.fromkeys(plan, 0.0)  # share of each stage
+        self.spent = dict.fromkeys(plan, 0.0)
+        self.already = dict.fromkeys(plan, 0.0)  # share that an earlier, interrupted run has done
         self.foreseen: dict[str, tuple[float, float]] = {}  # stage -> seconds left, and when that was said
         self.current, self.since = None, 0.0
         self.history: list[tuple[float, float]] = []  # seconds gone, seconds said to be left

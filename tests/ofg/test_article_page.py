@@ -31,7 +31,7 @@ def test_every_function_of_the_article_has_its_line():
 @pytest.mark.parametrize("option", sorted(set(re.findall(r'`(\w+=(?:"[\w-]+"|[\w.-]+))`', PAGE))))
 def test_its_options_are_taken(option):
     name, value = option.split("=")
-    core_options(**{name: eval(value, {})})  # noqa: S307: words of our own page
+    core_options(**{name: eval(value, {})})  # words of our own page
 
 
 def test_its_repairs_are_all_there():

@@ -171,7 +171,6 @@ def test_native_code_refuses_arrays_that_it_would_read_past(at, spoil):
     with pytest.raises(ValueError, match=spoil if spoil != "nan" else "finite"):
         _core.ask_many(body, body, *arrays, core_options(), 0, True, False, 1)
     if spoil != "rows":
-        poses, motions = arrays[at // 2 * 2 : at // 2 * 2 + 2] if at < 2 else arrays[:2], arrays[2:]
         rows = [np.ones((2, 7)), np.ones((2, 10))]
         rows[at // 2] = arrays[at]
         with pytest.raises(ValueError):

@@ -5,8 +5,15 @@ experiments/drill/faulty/methods.py
 from itertools import count
 
 from baselines.contract import Method, Verdict
-from . import answers, ends, errors, hangs, leftovers, surroundings
-from .kind import KINDS, Kind
+from experiments.drill.faulty import (  # noqa: F401 - each adds its kinds
+    answers,
+    ends,
+    errors,
+    hangs,
+    leftovers,
+    surroundings,
+)
+from experiments.drill.faulty.kind import KINDS, Kind
 from ofg import QUESTIONS
 
 

@@ -161,7 +161,7 @@ def lines(runs: Runs, heading: str) -> list[str]:
     def of(frame: pd.DataFrame) -> list[str]:
         return [m for m in frame.method.unique() if engine_of(m) == heading]
 
-    said = [(title, path, or_reason(lambda: listed(say(runs, of)))) for title, path, say in LINES]
+    said = [(title, path, or_reason(lambda say: listed(say(runs, of)), say)) for title, path, say in LINES]
     return [f"- {title}{f' ({runs.link(path)})' if path else ''}: {text}." for title, path, text in said if text]
 
 

@@ -161,10 +161,11 @@ def ratio(times: pd.DataFrame, method: str, reference: str, by) -> pd.DataFrame:
     return rows(found, method=method).set_index(by).sort_index()
 
 
-def or_reason(find: Callable) -> str:
-    """What find() says, or why it cannot be said: for what stands beside a verdict and does not decide it."""
+def or_reason(find: Callable, *given, **named) -> str:
+    """What find(*given, **named) says, or why it cannot be said: for what stands beside a verdict and
+    does not decide it."""
     try:
-        return str(find())
+        return str(find(*given, **named))
     except Missing as reason:
         return f"not measured ({reason})"
 

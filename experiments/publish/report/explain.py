@@ -14,7 +14,6 @@ from __future__ import annotations
 import json
 import math
 import re
-import tempfile
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -26,14 +25,14 @@ import pandas as pd
 from baselines import registry
 from ofg import Body, Motion, Pose, Query, readback
 
-from experiments.run import answering, declared, piece_truth
+from experiments.run import answering, piece_truth
 from experiments.run.folder import given, record
 from experiments.analysis import metrics
 from experiments.run.processes import pool
 from experiments.run.answering import COLUMNS
 from experiments.cases.case import Case
-from experiments.run.config import ConfigError, RunConfig, closest, load, load_files
-from experiments.run.folder.rows import _certificate, body_of, body_row, case_row, cases_of, tags_of
+from experiments.run.config import ConfigError, RunConfig, closest, load_files
+from experiments.run.folder.rows import body_of, body_row, case_row, cases_of, _certificate, tags_of
 from experiments.run.folder.store import Store, StoreError
 from experiments.cases.label import Truth
 
@@ -203,64 +202,6 @@ def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
     )
 
 
-def command(name, store, file, out, save_to, anew, methods, method_files, trust, print_grid, say) -> None:
-    """What `ofg-bench explain` does; its options are those of the command line. store: the run, opened, or None."""
-    from experiments.run.folder import manifest
-
-    if store is not None:
-        config = store.config if trust else store.config.model_copy(update={"method_files": (), "scenario_files": ()})
-        found, versions = from_run(store, name), store.facts.get("versions", {})
-        known = tuple(spec for spec in config.asked if trust or not _strange(spec))
-    else:
-        found, versions = from_file(file), {}
-        known = tuple(label for label in found.said.method if not _strange(label))
-        config = RunConfig(seed=0, methods=known or ("ofg",), scenarios=[{"name": found.case.scenario, "cases": 1}])
-    config = config.model_copy(
-        update={
-            "methods": tuple(methods) or known or load("quick").methods,
-            "optional_methods": (),
-            "method_files": config.method_files + method_files,
-        }
-    )
-    if strange := [spec for spec in methods if declared.recorded(spec.split()[0])]:
-        raise ConfigError(f"The method '{strange[0]}' is of a file that the run names, which is not run; pass --trust to run it, or its file with --methods.")
-    if anew or not len(found.said):
-        with tempfile.TemporaryDirectory() as folder:
-            found = ask(found, config, Path(folder, "workers.log"))
-    page_path = out or Path(f"{found.case.id.replace('/', '-')}.html")
-    page_path.parent.mkdir(parents=True, exist_ok=True)
-    page_path.write_text(page(found, versions or manifest.versions(config)))
-    t = found.truth
-    sweep = found.case.query.question != "overlap"
-    bracket = f", time of impact in [{t.t_lo!r}, {t.t_hi!r}]" if sweep and t.label == "hit" else ""
-    columns = ("method", "verdict", *(("time", "error") if sweep else ()), "detail")
-    rows = [
-        (r.method, r.outcome, *((_digits(r.time), _digits(r.error)) if sweep else ()), r.detail or "")
-        for r in verdicts(found).itertuples()
-    ]
-    certified = f"stated, not certified ({found.refused}): {t.label}" if found.refused else f"certified {t.label}"
-    print_grid(
-        f"{found.case.id}: {certified if t.label != 'uncertain' or found.refused else 'uncertain'}{', touching' if t.touching else ''}{bracket}, "
-        f"gap {t.gap:.3g}{'. ' + t.reason if t.reason else ''}",
-        columns,
-        rows,
-        "Error: of the time of impact beyond its certified bracket, as a share of the step; positive is late." if sweep else "",
-    )
-    if sweep:
-        q = found.case.query
-        say(f"A {motion_words(q.motion)}; B {motion_words(q.motion_b)}.")
-    if save_to:
-        save(found, save_to)
-        say(given.markup(f"The case is in {save_to}; show it anywhere with: ofg-bench explain --file {save_to}"))
-    say(given.markup(f"The page is {page_path}."))
-
-
-def _strange(spec: str) -> bool:
-    """Is it no method that is loaded here?"""
-    name = spec.split()[0]
-    return name not in registry.methods() or declared.recorded(name)
-
-
 def motion_words(motion: Motion) -> str:
     """'moves by (0, 0, -2), turns by 1.5 rad about the axis (0, 0, 1) through its point (1, 0, 0)'.
 
@@ -279,7 +220,7 @@ def motion_words(motion: Motion) -> str:
     return ", ".join(words)
 
 
-def _digits(value: float) -> str:
+def digits(value: float) -> str:
     return "-" if value != value else f"{value:.9g}"
 
 

@@ -15,7 +15,7 @@ import pandas as pd
 import ofg
 from baselines import registry
 from baselines.contract import Method
-from ofg import Body
+from ofg import Body, Query
 from ofg.decomposition import kept_at
 
 from experiments.analysis import metrics, nesting, views

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Callable, Sequence
 
-from .crew import Crew, RESUME, Worker
-from .limits import deadline, limit, mark
+from .crew import RESUME, Crew, Worker
+from .limits import limit, mark
 from .machine import MachineError
 from .worker import NO_CHANNEL, NO_MEMORY
 

@@ -1,7 +1,7 @@
 """The independent checker: it believes a label by its certificate alone (README.md beside this says what is in one).
 
 A label is taken apart into obligations: convex sets apart over an interval, a point inside a tetrahedron or a mesh, an exact
-time. Each is settled by doubles with an error bound (filter.py) or else here, by rationals and balls of 256 bits (Arb).
+time. Each is settled by doubles with an error bound (float_filter.py) or else here, by rationals and balls of 256 bits (Arb).
 Points, in the frame of geometry.Pair: x(t) = t d + Rot(k_A, theta_A t) R(q_A) (v - about_A) for A, and
 y(t) = dp + Rot(k_B, theta_B t) R(q_B) (v - about_B) for B.
 """
@@ -13,9 +13,9 @@ import flint
 import numpy as np
 from flint import arb
 
-from . import filter
-from .balls import BITS, add, ball, cross, dot, finite, greatest, least, mul, norm, number, rational, transposed, vector
-from .geometry import Pair, centre, elements, parts, points, support
+from . import float_filter
+from .balls import BITS, add, cross, dot, finite, greatest, least, mul, norm, number, rational, transposed, vector
+from .geometry import Pair, Points, centre, elements, parts, support
 
 
 FRAMES = ("W", "A", "B")
@@ -80,14 +80,14 @@ def check_many(labelled, doubles=True) -> list[Check]:
     """`check` for (query, truth) pairs, the doubles' part in one batch. doubles=False: everything by balls (slow)."""
     verdicts, owed = [], []
     for i, (query, truth) in enumerate(labelled):
-        found, verdict = _refusal(lambda: list(obligations(Pair(query), truth, truth.certificate)))
+        found, verdict = _refusal(_owed, query, truth)
         owed += [(i, o) for o in found or ()]
         verdicts.append(verdict)
     open_ = _settled([o for _, o in owed]) if doubles else _all_open(owed)
     for j, *undecided in open_:
         i, o = owed[j]
         if verdicts[i].ok:
-            _, verdicts[i] = _refusal(lambda: {Apart: apart, Within: within, Without: without}[type(o)](o, *undecided))
+            _, verdicts[i] = _refusal(_shown, o, *undecided)
     return verdicts
 
 
@@ -95,7 +95,7 @@ def _settled(owed):
     """What doubles leave open. All of it where they fail: balls then settle each by itself, and a
     forged certificate refuses itself and not the batch."""
     try:
-        return filter.settle(owed)
+        return float_filter.settle(owed)
     except Exception:
         return _all_open(owed)
 
@@ -104,11 +104,20 @@ def _all_open(owed):
     return [(j, None, None) for j in range(len(owed))]
 
 
-def _refusal(work):
-    """The result of `work` and the verdict on it: refused if it raises, whatever a forged certificate makes it raise."""
+def _owed(query, truth):
+    return list(obligations(Pair(query), truth, truth.certificate))
+
+
+def _shown(o, *undecided):
+    return {Apart: apart, Within: within, Without: without}[type(o)](o, *undecided)
+
+
+def _refusal(work, *given):
+    """work(*given) and the verdict on it: refused if it raises, whatever a forged certificate makes
+    it raise."""
     try:
         with flint.ctx.workprec(BITS):
-            return work(), Check(True)
+            return work(*given), Check(True)
     except Refused as refusal:
         return None, Check(False, str(refusal))
     except Exception as error:
@@ -169,7 +178,7 @@ def clear(pair, cert, start, end, gap):
             require(
                 order.shape == (count,) and (np.sort(order) == np.arange(count)).all(), f"{key} is no permutation of the elements"
             )
-        sides.append((points(body, order), count))
+        sides.append((Points(body, order), count))
     (A, na), (B, nb) = sides
     solid = pair.a.kind != "mesh" and pair.b.kind != "mesh"
     stack = [(cert["tree"], (0, na), (0, nb), start, True)]
@@ -313,7 +322,7 @@ def winding(mesh, y):
     """Winding number of a closed mesh about y: signed crossings of a ray, all signs certain; None if no ray tells."""
     for ray in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (3, 5, 7), (-7, 4, 3), (5, -8, 6), (-2, -7, 9)):
         total = 0
-        for face in mesh.faces[filter.crossed(mesh, y, ray)]:
+        for face in mesh.faces[float_filter.crossed(mesh, y, ray)]:
             w = [add(vector(mesh.vertices[i]), y, -1) for i in face]
             edges = [arb(dot(ray, cross(w[i], w[(i + 1) % 3]))) for i in range(3)]
             volume = arb(dot(w[0], cross(w[1], w[2])))

@@ -122,7 +122,7 @@ def _scaled(axis):
     return [c / top for c in axis]
 
 
-class points:
+class Points:
     """Vertices of a body's elements in a given order (n integers or None); `of(lo, hi)` are those of elements lo to hi - 1."""
 
     def __init__(self, body, order):

@@ -85,7 +85,7 @@ def _portals(query, a, b, plane):
     for near, most in ((1e-10, 9), (1e-10, 32), (1e-7, 32), (1e-4, 32), (1e-2, 32), (0.1, 32), (0.5, 32)):
         ia = np.flatnonzero(key_a >= key_a.max() - near * size)
         ib = np.flatnonzero(key_b <= key_b.min() + near * size)
-        pairs = sorted(((key_b[j] - key_a[i], i, j) for i in ia for j in ib))
+        pairs = sorted((key_b[j] - key_a[i], i, j) for i in ia for j in ib)
         if len(pairs) < 3 or (most == 32 and near == 1e-10 and len(pairs) <= 9):
             continue
         pairs = pairs[:most]

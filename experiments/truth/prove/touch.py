@@ -173,7 +173,7 @@ def _solved(rows: list) -> list | None:
     unknowns = len(rows[0]) - 1
     solution = [fmpq(0)] * unknowns
     for i in range(rank):
-        pivot = next((k for k in range(unknowns + 1) if reduced[i, k] != 0))
+        pivot = next(k for k in range(unknowns + 1) if reduced[i, k] != 0)
         if pivot == unknowns:
             return None
         solution[pivot] = reduced[i, unknowns]

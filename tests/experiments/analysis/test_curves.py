@@ -26,7 +26,7 @@ def table(value="misses", count=lambda m, i: 5 * i, methods=METHODS) -> Table:
             numbers = {"misses": count(m, i), "hits": 20, "miss_low": low, "miss_high": high} if value == "misses" else {
                 "median": 1000.0 * (m + 1) * 10**i, "low": 900.0, "high": 1e7, "ratio": 2.0**i}
             rows.append({"method": method, "level": level, **numbers})
-    text = pd.DataFrame({"method": methods, **{level: "" for level in LEVELS}})
+    text = pd.DataFrame({"method": methods, **dict.fromkeys(LEVELS, "")})
     choice = TableChoice(name="t", title="T.", value=value, scenarios=("face_count",))
     return Table("t", "T.", "", pd.DataFrame(rows), text, choice=choice)
 

@@ -154,7 +154,7 @@ def test_where_half_lies_within_the_noise_there_is_no_ratio():
     (Tolerance(0.01), "hit", nan, False, False)])
 def test_a_wrong_answer_is_credited_up_to_the_declared_tolerance(monkeypatch, tolerance, label, gap, hit, within):
     """The same rule for all, on both sides: Bullet's margin alone was credited."""
-    monkeypatch.setattr(outcome, "_declared", lambda labels: {name: (True, tolerance) for name in labels})
+    monkeypatch.setattr(outcome, "_declared", lambda labels: dict.fromkeys(labels, (True, tolerance)))
     table = judged([{**case("a", "translation", label, gap=gap), "displacement": [3.0, 4.0, 0.0]}], [seen("a", hit)])
     assert list(table.wrong) == [True] and list(table.within) == [within]
     (row,) = metrics.rates(table, ["method"]).to_dict("records")

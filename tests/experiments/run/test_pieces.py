@@ -50,7 +50,7 @@ def test_each_case_about_a_mesh_is_certified_of_its_pieces_too(folder):
     kind = bodies.set_index("body").kind
     about = cases[(cases.body_a.map(kind) == "mesh") | (cases.body_b.map(kind) == "mesh")]
     assert 0 < len(about) < len(cases) and pieces.case.tolist() == about.case.tolist()
-    given = dict((case.id, case.query) for case, _ in rows.cases_of(about, bodies))
+    given = {case.id: case.query for case, _ in rows.cases_of(about, bodies)}
     made = piece_truth.as_cases(about, pieces)
     proved = list(rows.cases_of(made, store.read("pieces-bodies.parquet")))
     assert all(v.ok for v in check_many([(case.query, truth) for case, truth in proved]))

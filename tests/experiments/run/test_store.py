@@ -42,7 +42,7 @@ def test_an_unfinished_run_says_how_to_finish_it(tmp_path):
 
 def test_no_run_folder_is_said(tmp_path):
     with pytest.raises(StoreError, match="no run folder"):
-        Store(tmp_path).config
+        _ = Store(tmp_path).config
 
 
 def test_labels_of_an_earlier_run_are_read_as_they_are_written_now(tmp_path):

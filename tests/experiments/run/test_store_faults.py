@@ -75,7 +75,7 @@ def test_damage_of_all_kinds_ends_in_the_same_bytes(stopped, reference, capfd):
     runner.run(CONFIG, stopped, workers=2)
     assert digests(stopped) == reference
     assert "is made again" in " ".join(capfd.readouterr().err.split())
-    assert not [p for p in stopped.rglob(".*")]
+    assert not list(stopped.rglob(".*"))
 
 
 @pytest.mark.parametrize("left", [

@@ -39,7 +39,7 @@ def test_a_method_that_dies_loses_its_own_times_alone(tmp_path):
                        method_files=[str(tmp_path / "frail.py")])
     cases = [get("deep").case(1, get("deep").levels[0], i) for i in range(2)]
     everything = {case.id for case in cases}
-    bin_ = Bin("overlap", "to 24", "deep", cases, {name: everything for name in ("ofg k=8", "frail lives=3", "frail lives=1000")})
+    bin_ = Bin("overlap", "to 24", "deep", cases, dict.fromkeys(("ofg k=8", "frail lives=3", "frail lives=1000"), everything))
     store = Store(tmp_path / "run")
     found = pd.DataFrame(measure_bin(store, config, bin_, 120.0), columns=COLUMNS)
     assert set(found.method) == {"ofg k=8", "frail lives=1000", "(noise probe)", LOST}

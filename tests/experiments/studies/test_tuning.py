@@ -40,7 +40,7 @@ def test_substeps_and_pieces_take_the_unit_of_their_method():
 
 
 def test_a_method_without_counts_is_asked_in_units_of_its_bodies(monkeypatch):
-    monkeypatch.setattr(units, "tuned", lambda: {})
+    monkeypatch.setattr(units, "tuned", dict)
     assert registry.make("fcl-convex-exact")[0].length == 1
 
 

@@ -34,7 +34,7 @@ def refused(query, truth, **changes):
 
 @pytest.mark.parametrize("question", ("translation", "motion"))
 def test_separation_cannot_be_stretched_past_the_impact(question):
-    for rng, query, truth in labelled(question, "hit", 15, 4):
+    for _, query, truth in labelled(question, "hit", 15, 4):
         if truth.start != "clear":
             continue
         later = truth.t_hi + (1 - truth.t_hi) * 1e-9
@@ -50,7 +50,7 @@ def test_separation_cannot_be_stretched_past_the_impact(question):
 
 @pytest.mark.parametrize("question", ("translation", "motion"))
 def test_an_early_witness_is_refused(question):
-    for rng, query, truth in labelled(question, "hit", 15, 5):
+    for _, query, truth in labelled(question, "hit", 15, 5):
         if truth.start == "clear":
             assert refused(query, truth, t_hi=truth.t_lo)
             assert refused(query, truth, t_lo=truth.t_lo * 0.5, t_hi=truth.t_hi * 0.5)
@@ -58,17 +58,17 @@ def test_an_early_witness_is_refused(question):
 
 def test_a_flipped_label_is_refused():
     for question in ("overlap", "translation", "motion"):
-        for rng, query, truth in labelled(question, "clear", 5, 6):
+        for _, query, truth in labelled(question, "clear", 5, 6):
             assert refused(query, truth, label="hit", start="hit", end="hit", gap=-1.0)
             assert refused(query, truth, gap=truth.gap * 1.5 + 1e-9)
             assert refused(query, replace(truth, certificate={}))
-        for rng, query, truth in labelled(question, "hit", 5, 7):
+        for _, query, truth in labelled(question, "hit", 5, 7):
             assert refused(query, truth, label="clear", start="clear", end="clear", gap=0.0, t_lo=np.nan, t_hi=np.nan)
             assert refused(query, replace(truth, certificate={}))
 
 
 def test_a_witness_moved_out_of_its_tetrahedra_is_refused():
-    for rng, query, truth in labelled("overlap", "hit", 30, 8):
+    for _, query, truth in labelled("overlap", "hit", 30, 8):
         far = query.a.size + query.b.size
 
         def move(hit):

@@ -12,9 +12,8 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from experiments.truth import check_many, label_many
-from experiments.truth.check import checker, filter
-from experiments.truth import label
+from experiments.truth import check_many, label, label_many
+from experiments.truth.check import checker, float_filter
 from experiments.truth.check.balls import BITS, number
 from experiments.truth.check.geometry import Pair
 from ofg import Body, Motion, Pose, Query
@@ -26,11 +25,11 @@ from .draw import moved_together, reversed_in_time, scaled, two_movers
 MUTANTS = {
     "maximum at the ends": {
         "checker": (" + wQ * h * own\n", "\n"),
-        "filter": ("(arm + (e - s)[q_of] * spun)", "arm"),
+        "float_filter": ("(arm + (e - s)[q_of] * spun)", "arm"),
     },
     "Coriolis without B's rate": {
         "checker": ("2 * wP * (slide + wQ * own)", "2 * wP * slide"),
-        "filter": ("2 * wP[q_of] * (slide[q_of] + spun)", "2 * wP[q_of] * slide[q_of]"),
+        "float_filter": ("2 * wP[q_of] * (slide[q_of] + spun)", "2 * wP[q_of] * slide[q_of]"),
     },
 }
 
@@ -183,7 +182,7 @@ def by_balls(module, o):
 
 
 def by_doubles(module, o):
-    N = filter.Numbers([o.pair])
+    N = float_filter.Numbers([o.pair])
     on_b, fixed = np.array([o.frame == "A"]), np.array([o.frame == "W"])
     P, Q = N.a.where(on_b, N.b), N.b.where(on_b, N.a)
     p, q = (o.A, o.B) if on_b[0] else (o.B, o.A)
@@ -192,16 +191,16 @@ def by_doubles(module, o):
     return module._bend(N, P, Q, np.array([o.n]), *one, fixed, *sides)
 
 
-@pytest.mark.parametrize("arithmetic", ("checker", "filter"))
+@pytest.mark.parametrize("arithmetic", ("checker", "float_filter"))
 def test_the_second_derivative_never_exceeds_its_bound(arithmetic):
     bounds = by_balls if arithmetic == "checker" else by_doubles
-    module = checker if arithmetic == "checker" else filter
+    module = checker if arithmetic == "checker" else float_filter
     worst = max(shortfall(bounds(module, o), second_derivatives(o)) for o in obligations(np.random.default_rng(30), 300))
     assert worst < 1e-3
 
 
 @pytest.mark.parametrize("name", MUTANTS)
-@pytest.mark.parametrize("arithmetic", ("checker", "filter"))
+@pytest.mark.parametrize("arithmetic", ("checker", "float_filter"))
 def test_a_bound_that_forgets_that_b_turns_is_found_out(name, arithmetic):
     bounds = by_balls if arithmetic == "checker" else by_doubles
     broken = mutant(sys.modules[f"experiments.truth.check.{arithmetic}"], *MUTANTS[name][arithmetic])
@@ -223,7 +222,7 @@ def test_a_false_plane_that_the_coriolis_mutant_accepts_is_refused(angles):
         o = checker.Apart(Pair(query), a.vertices, b.vertices, 0.0, 1.0, "A", normal.tolist(), 0.0, False)
         assert _dips(o), "the plane is false"
         assert _holds(broken, o)
-        assert not _holds(checker, o) and filter.settle([o])
+        assert not _holds(checker, o) and float_filter.settle([o])
 
 
 def _holds(module, o) -> bool:

@@ -105,7 +105,7 @@ def after_selection(runs: Runs):
     large = rows(still, k=8, faces=MANY).iloc[0]
     share = large.after_selection_mean * (large.k**2 + 3 * large.k) / MANY**2
     flown = {
-        q: or_reason(lambda: f"{rows(found, question=q).after_selection_max.max():.3g}")
+        q: or_reason(lambda q: f"{rows(found, question=q).after_selection_max.max():.3g}", q)
         for q in ("translation", "motion")
     }
     return (
@@ -250,7 +250,7 @@ def deep(runs: Runs):
     text = f"By faces, k = 8: {listed(inside)}. k = 64: {listed(size_rates(runs, 'deep', 64))}."
     same_centre = {
         f"k = {k}": or_reason(
-            lambda: rate(runs.answers("gap"), method=f"ofg k={k}", scenario="deep")
+            lambda k: rate(runs.answers("gap"), method=f"ofg k={k}", scenario="deep"), k
         )
         for k in (8, 64)
     }
@@ -314,7 +314,7 @@ def contained(runs: Runs):
     inside = found[found.tags.str.contains('"place": "inside"')]
     every = rate(inside, method="brute-force")
     others = {
-        m: or_reason(lambda: rate(inside, method=m))
+        m: or_reason(rate, inside, method=m)
         for m in ("ofg k=8", "ofg k=8 repairs=all", "fcl-convex", "fcl-mesh")
     }
     return are_small([every]), f"missed with all faces: {every}", f"Others: {listed(others)}."
@@ -336,7 +336,7 @@ def false_alarms(runs: Runs):
         raise Missing(f"no certified clears in run {runs.board}")
     some = {name: r for name, r in own.items() if r.count}
     asked = {
-        q: or_reason(lambda: rate(found, "false alarms", method="ofg k=8", question=q))
+        q: or_reason(rate, found, "false alarms", method="ofg k=8", question=q)
         for q in found.question.unique()
     }
 

@@ -18,7 +18,7 @@ def one_pair_of_pieces(runs: Runs):
     found = runs.answers("concavity")
     own = by_family(found, "ofg k=8")
     others = {
-        name: or_reason(lambda: rate(found, method=m))
+        name: or_reason(rate, found, method=m)
         for name, m in (
             ("one pair of pieces", "ofg k=8"),
             ("all pairs of pieces", "ofg k=8 concave=all-pairs"),
@@ -50,7 +50,7 @@ def undivided(runs: Runs):
     )
     text = (
         f"k = 64: {rate(found, method=more)}; all faces:"
-        f" {or_reason(lambda: rate(found, method='brute-force'))}. Missed at rest by"
+        f" {or_reason(rate, found, method='brute-force')}. Missed at rest by"
     )
     text += (
         f" both k, found by all faces: `ofg-bench explain {shown[0]} --run results/concavity`."

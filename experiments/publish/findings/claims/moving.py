@@ -53,7 +53,7 @@ def thin_walls(runs: Runs):
 def flights(runs: Runs):
     found = rows(runs.answers(runs.board), question="translation")
     every, own, whole = rate(found, method="brute-force"), *(
-        or_reason(lambda: rate(found, method=m)) for m in ("ofg k=8", "ofg k=8 repairs=all")
+        or_reason(rate, found, method=m) for m in ("ofg k=8", "ofg k=8 repairs=all")
     )
 
     def features():
@@ -159,7 +159,7 @@ def impacts(runs: Runs, methods: dict[str, str]) -> tuple[str, str]:
 
 
 def others(runs: Runs, methods: dict[str, str]) -> str:
-    return listed({n: or_reason(lambda: impact(runs, m)[1]) for n, m in methods.items()})
+    return listed({n: or_reason(lambda m: impact(runs, m)[1], m) for n, m in methods.items()})
 
 
 @claim(
@@ -250,7 +250,7 @@ def chords(runs: Runs):
     found = runs.answers("rotation")
     own = by_family(found, "ofg k=8")
     every, arcs, later = (
-        or_reason(lambda: rate(found, method=m))
+        or_reason(rate, found, method=m)
         for m in ("brute-force", "ofg k=8 repairs=arcs", "ofg k=8 repairs=selection-times")
     )
     text = (

@@ -5,7 +5,23 @@ from __future__ import annotations
 import pandas as pd
 
 from experiments import bench_ofg
-from experiments.publish.findings.runs import FAILS, HOLDS, MISSES, Missing, OPEN, PART, Runs, are_small, interval, listed, or_reason, rate, ratio, ratios_listed, rows, spread, wrong_rate
+from ..runs import (
+    FAILS,
+    HOLDS,
+    MISSES,
+    OPEN,
+    PART,
+    Missing,
+    Runs,
+    are_small,
+    listed,
+    or_reason,
+    rate,
+    ratios_listed,
+    rows,
+    spread,
+    wrong_rate,
+)
 from .claim import claim
 
 
@@ -144,7 +160,7 @@ def repaired(runs: Runs):
         f"The article {rate(found, method=base)} missed. Of these each repair alone finds:"
         f" {listed(alone)}. Left out of all, it brings back: {listed(without)}."
     )
-    alarms = [or_reason(lambda: rate(found, "false alarms", method=m)) for m in (base, all_)]
+    alarms = [or_reason(rate, found, "false alarms", method=m) for m in (base, all_)]
     text += (
         " Price of all, net time over k = 8:"
         f" {ratios_listed(lambda: runs.times('repairs'), all_, base, 'question')}. False alarms:"

@@ -51,7 +51,7 @@ def test_case_depends_on_its_arguments_alone(scenario):
 @pytest.mark.parametrize("scenario", FAMILIES.values(), ids=FAMILIES)
 def test_scenario_says_what_it_is(scenario):
     assert scenario.exposes and scenario.axis and "\n" not in scenario.exposes
-    assert len(set(f"{v:g}" for v in scenario.levels)) == len(scenario.levels), "two levels would share their cases' ids"
+    assert len({f"{v:g}" for v in scenario.levels}) == len(scenario.levels), "two levels would share their cases' ids"
 
 
 def test_ids_are_unique_over_all_families():

@@ -106,7 +106,7 @@ def _apart(jobs) -> list[tuple]:
     return open_
 
 
-def _bend(N, P, Q, n, s, e, sign, fixed, of_p, of_q):
+def _bend(N, P, Q, n, s, e, sign, fixed, of_p, of_q):  # noqa: PLR0913 - the bound's symbols
     """The bound M of checker._bend, a row per vertex of Q. A plane at rest takes the reach of all of P, which needs no support."""
     points, q_of = of_q
     wP, wQ = np.abs(P.theta), np.abs(Q.theta)
