@@ -1,19 +1,21 @@
 """Best effort, part one: the units and the origin that suit an engine.
 
 Engines have absolute tolerances and margins, and lose digits far from the origin. A careful user
-measures in units that suit the engine and puts the origin beside the bodies; so do the methods below.
-Both cost no accuracy: units are powers of two, and the origin is B's position, subtracted in double.
-Which unit suits an engine is counted by `experiments/studies/tuning.py`, on cases that no run counts.
+measures in units that suit the engine and puts the origin beside the bodies; so do the methods
+below. Both cost no accuracy: units are powers of two, and the origin is B's position, subtracted in
+double. Which unit suits an engine is counted by `experiments/studies/tuning.py`, on cases that no
+run counts.
 """
 
 from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import Callable, ClassVar
+from typing import ClassVar
 
 from ofg import Body, Pose, Query
 

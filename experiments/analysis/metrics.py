@@ -6,14 +6,19 @@ import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
-from .outcome import JUDGED, judge, out_of_their_depth, outcomes, with_pieces  # noqa: F401
 from experiments.run.folder.store import Store
 from experiments.run.timing import FLOOR, LOST, PROBE
 
+from .outcome import JUDGED, judge, out_of_their_depth, outcomes, with_pieces  # noqa: F401
 
 #: count, total and the name of their rate
-RATES = (("misses", "hits", "miss"), ("false_alarms", "clears", "alarm"), ("tunnelled", "can_tunnel", "tunnel"),
-         ("wrong", "judged", "wrong"), ("beyond", "judged", "beyond"))
+RATES = (
+    ("misses", "hits", "miss"),
+    ("false_alarms", "clears", "alarm"),
+    ("tunnelled", "can_tunnel", "tunnel"),
+    ("wrong", "judged", "wrong"),
+    ("beyond", "judged", "beyond"),
+)
 
 
 def wilson(count: int, total: int) -> tuple[float, float]:
@@ -25,22 +30,37 @@ def wilson(count: int, total: int) -> tuple[float, float]:
 
 
 def rates(table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
-    """Counts per group of `by`, in order of first appearance: asked, answered, hits and misses, clears and false alarms, tunnelling.
+    """Counts per group of `by`, in order of first appearance: asked, answered, hits and misses,
+    clears and false alarms, tunnelling.
 
-    judged: the certified cases that the method answered, touching and contained ones left out. wrong: misses and false alarms of
-    them. beyond: those of the wrong ones that are beyond the method's own tolerance. Rates are over the judged;
+    judged: the certified cases that the method answered, touching and contained ones left out.
+    wrong: misses and false alarms of them. beyond: those of the wrong ones that are beyond the
+    method's own tolerance. Rates are over the judged;
     *_low, *_high are Wilson intervals.
     """
     judged = table.outcome.isin(JUDGED)
     touching = table.outcome == "touching"
-    flags = pd.DataFrame({
-        "asked": 1, "answered": table.status == "ok", "unsupported": table.status == "unsupported",
-        "failed": table.status.isin(["error", "timeout"]), "uncertain": table.label == "uncertain",
-        "touching": touching, "touching_hits": touching & table.hit.fillna(False).astype(bool), "contained": table.outcome == "contained",
-        "hits": judged & (table.label == "hit"), "misses": table.outcome == "miss",
-        "clears": judged & (table.label == "clear"), "false_alarms": table.outcome == "false alarm",
-        "judged": judged, "wrong": table.wrong, "within": table.within, "can_tunnel": table.can_tunnel, "tunnelled": table.tunnelled,
-    }).astype(int)
+    flags = pd.DataFrame(
+        {
+            "asked": 1,
+            "answered": table.status == "ok",
+            "unsupported": table.status == "unsupported",
+            "failed": table.status.isin(["error", "timeout"]),
+            "uncertain": table.label == "uncertain",
+            "touching": touching,
+            "touching_hits": touching & table.hit.fillna(False).astype(bool),
+            "contained": table.outcome == "contained",
+            "hits": judged & (table.label == "hit"),
+            "misses": table.outcome == "miss",
+            "clears": judged & (table.label == "clear"),
+            "false_alarms": table.outcome == "false alarm",
+            "judged": judged,
+            "wrong": table.wrong,
+            "within": table.within,
+            "can_tunnel": table.can_tunnel,
+            "tunnelled": table.tunnelled,
+        }
+    ).astype(int)
     counts = flags.groupby([table[name] for name in by], sort=False).sum().reset_index()
     counts["beyond"] = counts.wrong - counts.within
     for count, total, name in RATES:
@@ -51,20 +71,30 @@ def rates(table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
 
 
 def times_of_impact(table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
-    """Errors of the time of impact per group, as shares of the step: how many, median of the absolute error, worst late and early."""
+    """Errors of the time of impact per group, as shares of the step: how many, median of the
+    absolute error, worst late and early.
+    """
     found = table[table.error.notna()]
     grouped = found.groupby(by, sort=False).error
-    return pd.DataFrame({
-        "times": grouped.size(), "median": grouped.agg(lambda e: e.abs().median()), "p95": grouped.agg(lambda e: e.abs().quantile(0.95)),
-        "late": grouped.agg(lambda e: (e > 0).sum()), "worst_late": grouped.agg(lambda e: max(e.max(), 0.0)),
-        "early": grouped.agg(lambda e: (e < 0).sum()), "worst_early": grouped.agg(lambda e: min(e.min(), 0.0)),
-    }).reset_index()
+    return pd.DataFrame(
+        {
+            "times": grouped.size(),
+            "median": grouped.agg(lambda e: e.abs().median()),
+            "p95": grouped.agg(lambda e: e.abs().quantile(0.95)),
+            "late": grouped.agg(lambda e: (e > 0).sum()),
+            "worst_late": grouped.agg(lambda e: max(e.max(), 0.0)),
+            "early": grouped.agg(lambda e: (e < 0).sum()),
+            "worst_early": grouped.agg(lambda e: min(e.min(), 0.0)),
+        }
+    ).reset_index()
 
 
 def costs(store: Store, by=("question", "faces", "situation")) -> pd.DataFrame:
-    """Nanoseconds per query for each group of `by` and method: gross (median over cases of the median over rounds), floor, net = gross - floor.
+    """Nanoseconds per query for each group of `by` and method: gross (median over cases of the
+    median over rounds), floor, net = gross - floor.
 
-    low, high: 95 % bootstrap interval of gross over cases (scipy). build: the dearest `prepare` of the group, when caches are cold.
+    low, high: 95 % bootstrap interval of gross over cases (scipy). build: the dearest `prepare` of
+    the group, when caches are cold.
     """
     times = _timed(store)
     rows = []
@@ -73,13 +103,26 @@ def costs(store: Store, by=("question", "faces", "situation")) -> pd.DataFrame:
         if len(real):
             least = float(floor.median()) if len(floor) else np.nan
             low, high = _bootstrap(real)
-            rows.append({**dict(zip([*by, "method"], key)), "cases": len(real), "gross": np.median(real), "low": low, "high": high,
-                         "floor": least, "net": max(np.median(real) - least, 0.0), "build": float(group.build_ns.max())})
-    return pd.DataFrame(rows, columns=[*by, "method", "cases", "gross", "low", "high", "floor", "net", "build"])
+            rows.append(
+                {
+                    **dict(zip([*by, "method"], key)),
+                    "cases": len(real),
+                    "gross": np.median(real),
+                    "low": low,
+                    "high": high,
+                    "floor": least,
+                    "net": max(np.median(real) - least, 0.0),
+                    "build": float(group.build_ns.max()),
+                }
+            )
+    return pd.DataFrame(
+        rows, columns=[*by, "method", "cases", "gross", "low", "high", "floor", "net", "build"]
+    )
 
 
 def paired_ratios(store: Store, reference: str) -> pd.DataFrame:
-    """Net time of each method over that of `reference`, case by case on the cases both answered: median ratio, bootstrap interval.
+    """Net time of each method over that of `reference`, case by case on the cases both answered:
+    median ratio, bootstrap interval.
 
     Without the groups that have no ratio: see `ratios`.
     """
@@ -113,12 +156,22 @@ def told(times: pd.DataFrame, side: str = "") -> pd.Series:
 
 
 def medians(values: pd.DataFrame, column: str, by: list[str]) -> pd.DataFrame:
-    """Median of `column` per group of `by`, its 95 % bootstrap interval (low, high) and the number of cases."""
+    """Median of `column` per group of `by`, its 95 % bootstrap interval (low, high) and the number
+    of cases.
+    """
     rows = []
     for key, group in values.groupby(by, sort=False):
         found = group[column].to_numpy()
         low, high = _bootstrap(found)
-        rows.append({**dict(zip(by, key)), "median": float(np.median(found)), "low": low, "high": high, "cases": len(found)})
+        rows.append(
+            {
+                **dict(zip(by, key)),
+                "median": float(np.median(found)),
+                "low": low,
+                "high": high,
+                "cases": len(found),
+            }
+        )
     return pd.DataFrame(rows, columns=[*by, "median", "low", "high", "cases"])
 
 
@@ -156,9 +209,13 @@ def lost(store: Store) -> list[str]:
 
 
 def noise(store: Store) -> float:
-    """How far the 90th percentile of the probe lies above its median, worst bin: 0.05 is a quiet machine, 0.3 a disturbed one."""
+    """How far the 90th percentile of the probe lies above its median, worst bin: 0.05 is a quiet
+    machine, 0.3 a disturbed one.
+    """
     probe = store.read("timings.parquet").query("method == @PROBE").rounds_ns
-    return max((float(np.percentile(r, 90) / np.median(r) - 1) for r in probe), default=float("nan"))
+    return max(
+        (float(np.percentile(r, 90) / np.median(r) - 1) for r in probe), default=float("nan")
+    )
 
 
 def _bootstrap(values: np.ndarray) -> tuple[float, float]:
@@ -166,5 +223,7 @@ def _bootstrap(values: np.ndarray) -> tuple[float, float]:
 
     if len(values) < 2 or np.ptp(values) == 0:
         return float(values[0]), float(values[0])
-    interval = bootstrap((values,), np.median, n_resamples=999, method="percentile", rng=np.random.default_rng(0)).confidence_interval
+    interval = bootstrap(
+        (values,), np.median, n_resamples=999, method="percentile", rng=np.random.default_rng(0)
+    ).confidence_interval
     return float(interval.low), float(interval.high)

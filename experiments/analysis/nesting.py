@@ -1,4 +1,6 @@
-"""Which hits no test of surfaces can see: one body lies inside the other, and their surfaces never meet."""
+"""Which hits no test of surfaces can see: one body lies inside the other, and their surfaces never
+meet.
+"""
 
 from __future__ import annotations
 
@@ -7,12 +9,12 @@ from weakref import WeakKeyDictionary
 import numpy as np
 import pandas as pd
 
-from ofg import Motion, Pose
-
 from experiments.run.folder.rows import filled, named
 from experiments.run.folder.store import Store
+from ofg import Motion, Pose
 
-#: Least depth inside a plane, as a share of the lengths that it was computed from: some 4,000 rounding errors of a double.
+#: Least depth inside a plane, as a share of the lengths that it was computed from: some 4,000
+#: rounding errors of a double.
 DEPTH = 1e-12
 
 
@@ -30,10 +32,12 @@ def of(store: Store, cases: pd.DataFrame) -> pd.DataFrame:
 
 
 def added(cases: pd.DataFrame, bodies: pd.DataFrame) -> pd.DataFrame:
-    """The cases with a column `kind` (of the bodies: "convex", "union", or "mesh" if one is) and a column `nested`.
+    """The cases with a column `kind` (of the bodies: "convex", "union", or "mesh" if one is) and a
+    column `nested`.
 
-    nested: proved to double precision with a margin, for hits at one pose and of translations, where the outer body is convex
-    or a union. What is not proved counts as not nested, so that a miss stays a miss.
+    nested: proved to double precision with a margin, for hits at one pose and of translations,
+    where the outer body is convex or a union. What is not proved counts as not nested, so that a
+    miss stays a miss.
     """
     rows = {row.body: row for row in bodies.itertuples()}
     kinds = {name: row.kind for name, row in rows.items()}
@@ -42,9 +46,15 @@ def added(cases: pd.DataFrame, bodies: pd.DataFrame) -> pd.DataFrame:
         with named("bodies.parquet", row.Index, row.body):
             solids[row.body] = _Solid(row)
     if unknown := sorted({*cases.body_a, *cases.body_b} - rows.keys()):
-        raise ValueError(f"bodies.parquet has no body {unknown[0]}, which cases.parquet names. Take the run anew from where it was made, or make it again.")
+        raise ValueError(
+            f"bodies.parquet has no body {unknown[0]}, which cases.parquet names. Take the run anew"
+            " from where it was made, or make it again."
+        )
     kind = [_kind(kinds[a], kinds[b]) for a, b in zip(cases.body_a, cases.body_b)]
-    nested = [row.label == "hit" and row.question != "motion" and _nested(row, solids) for row in filled(cases).itertuples()]
+    nested = [
+        row.label == "hit" and row.question != "motion" and _nested(row, solids)
+        for row in filled(cases).itertuples()
+    ]
     return cases.assign(kind=kind, nested=nested)
 
 
@@ -58,17 +68,23 @@ class _Solid:
     def __init__(self, row):
         self.vertices = np.reshape(row.vertices, (-1, 3))
         self.faces = np.reshape(row.faces, (-1, 3))
-        if not 0 <= self.faces.min() <= self.faces.max() < len(self.vertices) or np.sum(row.piece_faces) != len(self.faces):
+        if not 0 <= self.faces.min() <= self.faces.max() < len(self.vertices) or np.sum(
+            row.piece_faces
+        ) != len(self.faces):
             raise ValueError("its faces are not of its vertices, or its pieces not of its faces.")
         self.row, self.radius = row, np.linalg.norm(self.vertices, axis=1).max()
         self._planes = None
 
     @property
     def pieces(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Of each convex piece: (m, 3) normals of any length, (m, 3) points on the planes, (m,) products of edges."""
+        """Of each convex piece: (m, 3) normals of any length, (m, 3) points on the planes, (m,)
+        products of edges.
+        """
         if self._planes is None:
             first = np.concatenate([[0], np.cumsum(self.row.piece_faces)])
-            self._planes = [_planes(self.vertices[self.faces[i:j]]) for i, j in zip(first, first[1:])]
+            self._planes = [
+                _planes(self.vertices[self.faces[i:j]]) for i, j in zip(first, first[1:])
+            ]
         return self._planes
 
 
@@ -80,7 +96,8 @@ def _planes(triangles: np.ndarray):
 def _nested(row, solids) -> bool:
     a, b = solids[row.body_a], solids[row.body_b]
     pose_a, pose_b = Pose(row.quaternion_a, row.position_a), Pose(row.quaternion_b, row.position_b)
-    times = (0.0,) if row.question == "overlap" else (0.0, 1.0)  # a convex body holds what is in it at both ends all the way
+    # a convex body holds what is in it at both ends all the way
+    times = (0.0,) if row.question == "overlap" else (0.0, 1.0)
     moved = [(_at(pose_a, row.displacement, t), _at(pose_b, row.displacement_b, t)) for t in times]
     return _within(a, b, moved) or _within(b, a, [pair[::-1] for pair in moved])
 
@@ -90,13 +107,21 @@ def _at(pose: Pose, displacement, t: float) -> Pose:
 
 
 def _within(inner: _Solid, outer: _Solid, poses: list[tuple[Pose, Pose]]) -> bool:
-    """Every vertex of the inner inside one piece of the outer at all these poses, and on one side of each other piece's surface."""
+    """Every vertex of the inner inside one piece of the outer at all these poses, and on one side
+    of each other piece's surface.
+    """
     if outer.row.kind == "mesh" or inner.radius > 2 * outer.radius:
         return False
-    reach = max(np.abs(p.position).max() + np.abs(q.position).max() for p, q in poses) + inner.radius + outer.radius
-    # The points of both ends at once: a point on the way is on the side of a plane on which it is at both ends, so
-    # that one plane has to hold for all of them.
-    points = np.concatenate([(inner.vertices @ p.rotation.T + (p.position - q.position)) @ q.rotation for p, q in poses])
+    reach = (
+        max(np.abs(p.position).max() + np.abs(q.position).max() for p, q in poses)
+        + inner.radius
+        + outer.radius
+    )
+    # The points of both ends at once: a point on the way is on the side of a plane on which it is
+    # at both ends, so that one plane has to hold for all of them.
+    points = np.concatenate(
+        [(inner.vertices @ p.rotation.T + (p.position - q.position)) @ q.rotation for p, q in poses]
+    )
     if not any(np.all(n @ points[0] < np.einsum("ij,ij->i", n, on)) for n, on, _ in outer.pieces):
         return False
     sides = [_side(points, reach, piece) for piece in outer.pieces]

@@ -1,4 +1,6 @@
-"""What came of each answer, against the certified label of its case and never against another method."""
+"""What came of each answer, against the certified label of its case and never against another
+method.
+"""
 
 from __future__ import annotations
 
@@ -7,69 +9,135 @@ import pandas as pd
 
 from baselines import registry
 from baselines.tolerance import NONE, Tolerance
-
-from . import nesting
 from experiments.run import piece_truth
 from experiments.run.folder.rows import filled
 from experiments.run.folder.store import Store, StoreError
 from experiments.run.timing import situation_of
 
+from . import nesting
+
 #: what an answer can be; one that is not "ok" has its status as its outcome
-OUTCOMES = ("right", "miss", "false alarm", "contained", "touching", "no label", "unsupported", "error", "timeout")
+OUTCOMES = (
+    "right",
+    "miss",
+    "false alarm",
+    "contained",
+    "touching",
+    "no label",
+    "unsupported",
+    "error",
+    "timeout",
+)
 JUDGED = ("right", "miss", "false alarm")  # of which rates are made
 FILE = "outcomes.parquet"
-KEPT = ("case", "method", "scenario", "level", "question", "kind", "truth", "label", "gap", "relative_gap", "touching", "nested", "status", "hit",
-        "time", "outcome", "wrong", "tolerance", "within", "can_tunnel", "tunnelled", "error")
+KEPT = (
+    "case",
+    "method",
+    "scenario",
+    "level",
+    "question",
+    "kind",
+    "truth",
+    "label",
+    "gap",
+    "relative_gap",
+    "touching",
+    "nested",
+    "status",
+    "hit",
+    "time",
+    "outcome",
+    "wrong",
+    "tolerance",
+    "within",
+    "can_tunnel",
+    "tunnelled",
+    "error",
+)
 
 
 def outcomes(store: Store, by_pieces: bool = True, nested: bool = True) -> pd.DataFrame:
     """One row per case and method: the observation, the truth, and what came of it.
 
-    outcome: "right"; "miss" (certified hit, answered clear); "false alarm" (certified clear, answered hit); "contained" (a test of
-    surfaces did not see a body that is inside the other, whose surface it does not meet: in no rate); "touching" (the closed
-    bodies share a point and no more, where neither answer is wrong: in no rate); "no label" (truth uncertain); or the status where it
-    is not ok. wrong: a miss or a false alarm. tolerance: the distance that the method's documentation allows at this case, length.
-    within: wrong, at a clearance or a depth of penetration within it. tunnelled: a miss of a sweep whose start and end are certified
-    clear. error: signed time of impact error, as a share of the step: beyond the certified bracket, positive late, negative early, 0
-    inside; NaN where there is none. kind: of the bodies, "convex", "union" or "mesh" if one of them is.
-    truth: "pieces" where a method that decomposes was asked about a mesh: label, bracket and gap are then those of the pieces,
-    relative_gap and situation stay the mesh's; else "mesh", and everywhere with by_pieces false. nested: whether to look who is
-    contained.
+    outcome: "right"; "miss" (certified hit, answered clear); "false alarm" (certified clear,
+    answered hit); "contained" (a test of surfaces did not see a body that is inside the other,
+    whose surface it does not meet: in no rate); "touching" (the closed bodies share a point and no
+    more, where neither answer is wrong: in no rate); "no label" (truth uncertain); or the status
+    where it is not ok. wrong: a miss or a false alarm. tolerance: the distance that the method's
+    documentation allows at this case, length. within: wrong, at a clearance or a depth of
+    penetration within it. tunnelled: a miss of a sweep whose start and end are certified clear.
+    error: signed time of impact error, as a share of the step: beyond the certified bracket,
+    positive late, negative early, 0 inside; NaN where there is none. kind: of the bodies, "convex",
+    "union" or "mesh" if one of them is. truth: "pieces" where a method that decomposes was asked
+    about a mesh: label, bracket and gap are then those of the pieces, relative_gap and situation
+    stay the mesh's; else "mesh", and everywhere with by_pieces false. nested: whether to look who
+    is contained.
     """
     said, cases = store.read("observations.parquet"), store.read("cases.parquet")
     unknown = said.case[~said.case.isin(cases.case)]
     if len(unknown):
-        raise StoreError(f"{store.folder / 'observations.parquet'} has answers to the case '{unknown.iloc[0]}', which is not in cases.parquet. "
-                         "The run was changed or is damaged; take it anew from where it was made, or make it again.")
-    return judge(said, nesting.of(store, cases) if nested else cases, piece_truth.read(store) if by_pieces else None)
+        raise StoreError(
+            f"{store.folder / 'observations.parquet'} has answers to the case '{unknown.iloc[0]}',"
+            " which is not in cases.parquet. The run was changed or is damaged; take it anew from"
+            " where it was made, or make it again."
+        )
+    return judge(
+        said,
+        nesting.of(store, cases) if nested else cases,
+        piece_truth.read(store) if by_pieces else None,
+    )
 
 
 def save(store: Store) -> None:
-    """Write the outcomes beside the rows of the run: what the tables count, for a merge of a reader's own."""
+    """Write the outcomes beside the rows of the run: what the tables count, for a merge of a
+    reader's own.
+    """
     found = with_pieces(store, outcomes(store))
     store.write(found[[name for name in KEPT if name in found]], FILE)
 
 
-def judge(observations: pd.DataFrame, cases: pd.DataFrame, pieces: pd.DataFrame | None = None) -> pd.DataFrame:
-    """`outcomes` for rows of observations.parquet, of cases.parquet and of pieces.parquet; nobody is contained where cases have no column `nested`."""
+def judge(
+    observations: pd.DataFrame, cases: pd.DataFrame, pieces: pd.DataFrame | None = None
+) -> pd.DataFrame:
+    """`outcomes` for rows of observations.parquet, of cases.parquet and of pieces.parquet; nobody
+    is contained where cases have no column `nested`.
+    """
     cases = filled(cases)
-    cases = cases.assign(touching=cases.touching.astype(bool), path=_path(cases),
-                         nested=cases.nested if "nested" in cases else False)
-    table = observations.merge(cases.drop(columns=["certificate"]), on="case", how="left", validate="many_to_one")
+    cases = cases.assign(
+        touching=cases.touching.astype(bool),
+        path=_path(cases),
+        nested=cases.nested if "nested" in cases else False,
+    )
+    table = observations.merge(
+        cases.drop(columns=["certificate"]), on="case", how="left", validate="many_to_one"
+    )
     table["relative_gap"], table["situation"] = table.gap / table["size"], situation_of(table)
     table = piece_truth.put(table, pieces)
     methods = _declared(table.method.unique())
     answered, hit = table.status == "ok", table.hit.fillna(False).astype(bool)
     clear, meets = table.label == "clear", table.label == "hit"
-    surfaces = ~table.method.map({label: solid for label, (solid, _) in methods.items()}).astype(bool)
+    surfaces = ~table.method.map({label: solid for label, (solid, _) in methods.items()}).astype(
+        bool
+    )
     table["outcome"] = np.select(
-        [~answered, table.label == "uncertain", table.touching, surfaces & table.nested & meets & ~hit, meets & ~hit, clear & hit],
-        [table.status, "no label", "touching", "contained", "miss", "false alarm"], "right")
+        [
+            ~answered,
+            table.label == "uncertain",
+            table.touching,
+            surfaces & table.nested & meets & ~hit,
+            meets & ~hit,
+            clear & hit,
+        ],
+        [table.status, "no label", "touching", "contained", "miss", "false alarm"],
+        "right",
+    )
     table["wrong"] = table.outcome.isin(["miss", "false alarm"])
     table["tolerance"] = _tolerances(table, methods)
     table["within"] = table.wrong & (table.gap.abs() <= table.tolerance)
     sweep = table.question != "overlap"
-    table["can_tunnel"] = answered & sweep & meets & (table.start == "clear") & (table.end == "clear")
+    table["can_tunnel"] = (
+        answered & sweep & meets & (table.start == "clear") & (table.end == "clear")
+    )
     table["tunnelled"] = table.can_tunnel & ~hit
     late, early = (table.time - table.t_hi).clip(lower=0), (table.time - table.t_lo).clip(upper=0)
     timed = answered & sweep & meets & hit & table.time.notna() & (table.start == "clear")
@@ -114,8 +182,13 @@ def _tolerances(table: pd.DataFrame, methods: dict[str, tuple[bool, Tolerance]])
 
 
 def _declared(labels) -> dict[str, tuple[bool, Tolerance]]:
-    """Whether each method tests solids, and its tolerance; of one whose file is not there any more, (True, none)."""
-    return {label: ((m.solid, m.tolerance) if (m := method_of(label)) else (True, NONE)) for label in labels}
+    """Whether each method tests solids, and its tolerance; of one whose file is not there any more,
+    (True, none).
+    """
+    return {
+        label: (m.solid, m.tolerance) if (m := method_of(label)) else (True, NONE)
+        for label in labels
+    }
 
 
 def method_of(label: str):

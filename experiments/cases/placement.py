@@ -1,8 +1,10 @@
-"""How scenarios put bodies where a wanted gap, feature or time comes out, exactly where that is possible in float32.
+"""How scenarios put bodies where a wanted gap, feature or time comes out, exactly where that is
+possible in float32.
 
-The trick for gaps of 1e-16: both bodies have the contact point at their own frame's origin (`rest_on`), both rotations
-are integer quaternions with a common part, and what is tiny goes into one body's position while what is large goes into
-the other's. Then nothing is added, and nothing is rounded but the tiny number itself.
+The trick for gaps of 1e-16: both bodies have the contact point at their own frame's origin
+(`rest_on`), both rotations are integer quaternions with a common part, and what is tiny goes into
+one body's position while what is large goes into the other's. Then nothing is added, and nothing is
+rounded but the tiny number itself.
 """
 
 from __future__ import annotations
@@ -13,16 +15,26 @@ from functools import cache
 import numpy as np
 import trimesh
 
+from ofg import Body, Motion, Pose
+
 from .scenario import Draft, snap
 from .shapes import any_convex, box, hull_of, rod, scaled
-from ofg import Body, Motion, Pose
 
 IDENTITY = np.array([1, 0, 0, 0])
 QUARTER_TURN = np.array([1, 0, 0, 1])  # about z
 UPSIDE_DOWN = np.array([0, 1, 0, 0])
-FEATURE_PAIRS = ("vertex-vertex", "vertex-edge", "vertex-face", "edge-edge crossing", "edge-edge parallel", "edge-face",
-                 "face-face")
-ALIGNED_SHARE = 0.25  # of the cases keep the axes of the world: symmetric input is where engines fail
+FEATURE_PAIRS = (
+    "vertex-vertex",
+    "vertex-edge",
+    "vertex-face",
+    "edge-edge crossing",
+    "edge-edge parallel",
+    "edge-face",
+    "face-face",
+)
+ALIGNED_SHARE = (
+    0.25  # of the cases keep the axes of the world: symmetric input is where engines fail
+)
 
 GROUND = 1e-6  # of the size: vertices nearer than this to a face's plane belong to the face
 
@@ -30,17 +42,21 @@ GROUND = 1e-6  # of the size: vertices nearer than this to a face's plane belong
 def multiply(p, q) -> np.ndarray:
     """Hamilton product of (w, x, y, z) quaternions; integers stay integers."""
     p, q = np.asarray(p), np.asarray(q)
-    return np.concatenate([[p[0] * q[0] - p[1:] @ q[1:]], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])])
+    return np.concatenate(
+        [[p[0] * q[0] - p[1:] @ q[1:]], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])]
+    )
 
 
 def norm_matrix(q) -> np.ndarray:
     """N(q), which is |q|^2 times the rotation: integer for an integer quaternion."""
     w, x, y, z = np.asarray(q)
-    return np.array([
-        [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
-    ])
+    return np.array(
+        [
+            [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
+        ]
+    )
 
 
 def any_rotation(rng) -> np.ndarray:
@@ -50,7 +66,9 @@ def any_rotation(rng) -> np.ndarray:
 
 
 def common_rotation(rng) -> tuple[np.ndarray, str]:
-    """An integer quaternion for both bodies, and the tag "aligned": "yes" where it is the identity."""
+    """An integer quaternion for both bodies, and the tag "aligned": "yes" where it is the
+    identity.
+    """
     if rng.random() < ALIGNED_SHARE:
         return IDENTITY, "yes"
     return rng.choice([-1, 1], 4) * rng.integers(1, 16, 4), "no"
@@ -63,10 +81,12 @@ def any_direction(rng) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Seat:
-    """A above B with one feature of each at the common point 0, the plane between them at `normal`, which points to A.
+    """A above B with one feature of each at the common point 0, the plane between them at `normal`,
+    which points to A.
 
-    matrix: integer (3, 3); its columns, divided by `unit`, are two exact directions in the plane and the normal.
-    offset: (3,) where in the world the contact may lie, if the case can bear the rounding.
+    matrix: integer (3, 3); its columns, divided by `unit`, are two exact directions in the plane
+    and the normal. offset: (3,) where in the world the contact may lie, if the case can bear the
+    rounding.
     """
 
     a: Body
@@ -88,30 +108,50 @@ class Seat:
         return self.matrix[:, 2] / self.unit
 
     def exact(self, x: int, y: int, z: int, length: float) -> np.ndarray:
-        """About `length` in the direction of the integers (x, y, z) of the plane's axes, each component exact in float32."""
+        """About `length` in the direction of the integers (x, y, z) of the plane's axes, each
+        component exact in float32.
+        """
         v = self.matrix @ [x, y, z]
         return v * 2.0 ** np.round(np.log2(length / np.linalg.norm(v)))
 
     def apart(self, gap: float) -> Draft:
-        """At rest, `gap` (length) apart along the normal; negative: that deep in each other. Tag "aim" holds it."""
+        """At rest, `gap` (length) apart along the normal; negative: that deep in each other. Tag
+        "aim" holds it.
+        """
         self.tags["aim"] = float(gap)
         return self.draft(gap * self.normal, [0, 0, 0], finest=gap)
 
-    def draft(self, position_a, position_b, motion: Motion = Motion(), finest: float = 0.0) -> Draft:
-        """Both positions relative to the contact. It is moved to `offset` where rounding the positions there to float32 changes
-        the `finest` length that matters by less than a thousandth; else it stays at the world's origin."""
+    def draft(
+        self, position_a, position_b, motion: Motion = Motion(), finest: float = 0.0
+    ) -> Draft:
+        """Both positions relative to the contact. It is moved to `offset` where rounding the
+        positions there to float32 changes the `finest` length that matters by less than a
+        thousandth; else it stays at the world's origin.
+        """
         if 1e-3 * abs(finest) > 2.0**-24 * np.abs(self.offset).max():
             position_a, position_b = position_a + self.offset, position_b + self.offset
-        return Draft(self.a, self.b, Pose(self.rotation_a, position_a), Pose(self.rotation_b, position_b), motion, self.tags)
+        return Draft(
+            self.a,
+            self.b,
+            Pose(self.rotation_a, position_a),
+            Pose(self.rotation_b, position_b),
+            motion,
+            self.tags,
+        )
 
 
 def seat(rng, body_a: Body, body_b: Body, pair: str | None = None) -> Seat:
-    """Rest A on B by one of FEATURE_PAIRS, drawn if not given; which body has which feature is drawn."""
+    """Rest A on B by one of FEATURE_PAIRS, drawn if not given; which body has which feature is
+    drawn.
+    """
     pair = pair or FEATURE_PAIRS[rng.integers(len(FEATURE_PAIRS))]
     features = pair.split()[0].split("-")
     if rng.random() < 0.5:
         features.reverse()
-    a, b = (rest_on(body, feature, int(rng.integers(4))) for body, feature in zip((body_a, body_b), features))
+    a, b = (
+        rest_on(body, feature, int(rng.integers(4)))
+        for body, feature in zip((body_a, body_b), features)
+    )
     common, aligned = common_rotation(rng)
     if aligned == "yes":  # boxes stay boxes of the world: a quarter turn at most
         spin = QUARTER_TURN if "crossing" in pair or rng.random() < 0.5 else IDENTITY
@@ -120,19 +160,30 @@ def seat(rng, body_a: Body, body_b: Body, pair: str | None = None) -> Seat:
     spin = IDENTITY if "parallel" in pair else spin
     matrix = norm_matrix(common)
     offset = rng.normal(size=3) * min(a.size, b.size)
-    return Seat(a, b, multiply(common, spin), multiply(common, UPSIDE_DOWN), matrix, float(common @ common), offset,
-                {"feature": pair, "aligned": aligned})
+    return Seat(
+        a,
+        b,
+        multiply(common, spin),
+        multiply(common, UPSIDE_DOWN),
+        matrix,
+        float(common @ common),
+        offset,
+        {"feature": pair, "aligned": aligned},
+    )
 
 
 @cache
 def rest_on(body: Body, feature: str, variant: int) -> Body:
-    """The convex body moved so that it stands in z >= 0 on one feature of its own, with the frame's origin in that feature.
+    """The convex body moved so that it stands in z >= 0 on one feature of its own, with the frame's
+    origin in that feature.
 
-    feature: "vertex" (at 0), "edge" (along x through 0) or "face" (in z = 0, around 0); which one is drawn by `variant`.
-    Standing is exact: the feature's vertices have the coordinates 0 that it takes, and all other vertices have z > 0.
+    feature: "vertex" (at 0), "edge" (along x through 0) or "face" (in z = 0, around 0); which one
+    is drawn by `variant`. Standing is exact: the feature's vertices have the coordinates 0 that it
+    takes, and all other vertices have z > 0.
     """
     rng = np.random.default_rng([variant, len(body.vertices)])
-    unit = 2.0 ** np.round(np.log2(body.size))  # trimesh takes the triangles of a body of 1e-6 for degenerate
+    # trimesh takes the triangles of a body of 1e-6 for degenerate
+    unit = 2.0 ** np.round(np.log2(body.size))
     mesh = trimesh.Trimesh(body.vertices / unit, body.faces, process=False)
     for _ in range(100):
         normal, along, contact, members = _feature(mesh, feature, rng)
@@ -147,12 +198,16 @@ def rest_on(body: Body, feature: str, variant: int) -> Body:
             v[members, 0] = 0.0
         if np.delete(v, members, axis=0)[:, 2].min() > GROUND * unit:
             return hull_of(v, f"{body.name} on {feature} {variant}")
-    raise ValueError(f"Body '{body.name}' found no {feature} that it can stand on clear of its other vertices in 100 tries; "
-                     "give the scenario a body with blunter features.")
+    raise ValueError(
+        f"Body '{body.name}' found no {feature} that it can stand on clear of its other vertices in"
+        " 100 tries; give the scenario a body with blunter features."
+    )
 
 
 def _feature(mesh: trimesh.Trimesh, feature: str, rng):
-    """Outward normal, a direction across it, the contact point and the vertices of a feature drawn from the body's own."""
+    """Outward normal, a direction across it, the contact point and the vertices of a feature drawn
+    from the body's own.
+    """
     if feature == "face":
         face = rng.choice(len(mesh.faces), p=mesh.area_faces / mesh.area_faces.sum())
         normal = mesh.face_normals[face]
@@ -160,10 +215,17 @@ def _feature(mesh: trimesh.Trimesh, feature: str, rng):
         corners = mesh.vertices[mesh.faces[face]]
         sides = np.roll(corners, -1, axis=0) - corners
         shortest = sides[np.argmin(np.linalg.norm(sides, axis=1))]  # of a box, not the diagonal
-        return normal, shortest, rng.dirichlet(np.ones(3) * 3) @ corners, np.flatnonzero(heights > -GROUND)
+        return (
+            normal,
+            shortest,
+            rng.dirichlet(np.ones(3) * 3) @ corners,
+            np.flatnonzero(heights > -GROUND),
+        )
     if feature == "edge":
         sharp = np.flatnonzero(mesh.face_adjacency_angles > 0.02)
-        lengths = np.linalg.norm(np.diff(mesh.vertices[mesh.face_adjacency_edges[sharp]], axis=1)[:, 0], axis=1)
+        lengths = np.linalg.norm(
+            np.diff(mesh.vertices[mesh.face_adjacency_edges[sharp]], axis=1)[:, 0], axis=1
+        )
         pick = rng.choice(sharp, p=lengths / lengths.sum())
         members = mesh.face_adjacency_edges[pick]
         start, end = mesh.vertices[members]
@@ -172,8 +234,16 @@ def _feature(mesh: trimesh.Trimesh, feature: str, rng):
         return normal / np.linalg.norm(normal), end - start, start + share * (end - start), members
     vertex = rng.integers(len(mesh.vertices))
     around = mesh.vertex_faces[vertex]
-    normal = (rng.dirichlet(np.ones(np.count_nonzero(around >= 0)) * 3) @ mesh.face_normals[around[around >= 0]])
-    return normal / np.linalg.norm(normal), rng.normal(size=3), mesh.vertices[vertex], np.array([vertex])
+    normal = (
+        rng.dirichlet(np.ones(np.count_nonzero(around >= 0)) * 3)
+        @ mesh.face_normals[around[around >= 0]]
+    )
+    return (
+        normal / np.linalg.norm(normal),
+        rng.normal(size=3),
+        mesh.vertices[vertex],
+        np.array([vertex]),
+    )
 
 
 def surface_point(rng, body: Body) -> tuple[np.ndarray, np.ndarray]:
@@ -184,7 +254,8 @@ def surface_point(rng, body: Body) -> tuple[np.ndarray, np.ndarray]:
 
 
 def touching(rng, a: Body, b: Body, gap: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Rotation and position of A, and the normal, with which A's extreme vertex stands `gap` above a point of B's surface.
+    """Rotation and position of A, and the normal, with which A's extreme vertex stands `gap` above
+    a point of B's surface.
 
     B is at the identity. Any kind of body. Of a concave B, A may still meet some other part.
     """
@@ -195,7 +266,9 @@ def touching(rng, a: Body, b: Body, gap: float) -> tuple[np.ndarray, np.ndarray,
 
 
 def in_world(rng, draft: Draft, offset: float = 1.0) -> Draft:
-    """The same in a common random rotation and offset; a quarter of the cases keep the world's axes (tag "aligned")."""
+    """The same in a common random rotation and offset; a quarter of the cases keep the world's axes
+    (tag "aligned").
+    """
     q, aligned = common_rotation(rng)
     r = norm_matrix(q) / (q @ q)
     shift = offset * rng.normal(size=3)
@@ -214,22 +287,36 @@ def in_world(rng, draft: Draft, offset: float = 1.0) -> Draft:
 
 
 def flight_through(rng, level: float) -> Draft:
-    """A body flies along -z through a wall, or past its rim, from clear to clear; level = travel / thickness of the wall."""
+    """A body flies along -z through a wall, or past its rim, from clear to clear; level = travel /
+    thickness of the wall.
+    """
     half_width = 2.0
     a = any_convex(rng)
     run_up = a.radius + rng.uniform(0.2, 1.0)
     travel = 2 * run_up * level / (level - 1)
     wall = box(2 * half_width, 2 * half_width, float(np.float32(travel / level)))
     through = rng.random() < 0.7
-    side = rng.uniform(-1, 1, 2) if through else np.array([half_width + a.radius * rng.uniform(1.05, 1.5), 0.0])
+    side = (
+        rng.uniform(-1, 1, 2)
+        if through
+        else np.array([half_width + a.radius * rng.uniform(1.05, 1.5), 0.0])
+    )
     slant = rng.uniform(-0.5, 0.5, 2) * [through, 1]  # a body beside the rim stays beside it
     start = Pose(any_rotation(rng), [*(side - slant / 2), travel / 2])
-    return Draft(a, wall, start, Pose(), Motion([*slant, -travel]), {"place": "through" if through else "past the rim"})
+    return Draft(
+        a,
+        wall,
+        start,
+        Pose(),
+        Motion([*slant, -travel]),
+        {"place": "through" if through else "past the rim"},
+    )
 
 
 def spin_beside(rng, turn: float, angle: float, width: float) -> Draft:
-    """A rod turns about z and its own centre by `turn`; a body of radius `width` stands at the angle `angle`, near enough to be
-    hit by the rod's end or just too far."""
+    """A rod turns about z and its own centre by `turn`; a body of radius `width` stands at the
+    angle `angle`, near enough to be hit by the rod's end or just too far.
+    """
     hit = rng.random() < 0.65
     reach = rng.uniform(0.6, 0.9) if hit else rng.uniform(1.01, 1.2)
     body = any_convex(rng)
@@ -239,4 +326,11 @@ def spin_beside(rng, turn: float, angle: float, width: float) -> Draft:
     nearest = (Pose(rotation).apply(body.vertices) @ out).min()
     pose = Pose(rotation, (reach - nearest) * out)
     place = "in the way" if hit else "out of reach"
-    return Draft(rod(float(rng.choice([8, 16, 32]))), body, Pose(), pose, Motion([0, 0, 0], [0, 0, 1], turn), {"place": place})
+    return Draft(
+        rod(float(rng.choice([8, 16, 32]))),
+        body,
+        Pose(),
+        pose,
+        Motion([0, 0, 0], [0, 0, 1], turn),
+        {"place": place},
+    )

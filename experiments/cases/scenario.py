@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import zlib
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -13,18 +13,21 @@ from ofg import Body, BodyError, Motion, Pose, Query
 from .case import Case
 from .label import Truth
 
-
 PRECISIONS = ("float32", "float64")
 USELESS = ("start-overlap", "hit", "clear", "uncertain", "touching")  #: what redraw_if may name
 
 
 class ScenarioError(ValueError):
-    """A scenario that draws what is no case. The message names the scenario, the level and the draw."""
+    """A scenario that draws what is no case. The message names the scenario, the level and the
+    draw.
+    """
 
 
 @dataclass(frozen=True)
 class Draft:
-    """What a scenario's `generate` returns: two bodies, two poses, A's motion, tags to split tables by, and B's motion."""
+    """What a scenario's `generate` returns: two bodies, two poses, A's motion, tags to split tables
+    by, and B's motion.
+    """
 
     a: Body
     b: Body
@@ -39,15 +42,15 @@ class Draft:
 class Scenario:
     """One file in `experiments/cases/families/` holds one of these, named SCENARIO.
 
-    name: as in the tables. question: what its cases ask. exposes: one line, what it tells methods apart by.
-    axis: what the difficulty is, with its unit. levels: the values it takes, easy to hard.
-    generate(rng, level) -> Draft: aims at the difficulty; the label comes from the certificate and never from the aim.
-    precision: "float64": a case is what `generate` drew, number for number; engines that compute or
-    hold bodies in single precision are asked about bodies that they cannot hold, and the tables mark
-    them. "float32": poses, motions and vertices are rounded to float32 first, so that all engines are
-    asked the same.
-    redraw_if: what makes a case useless, so that it is drawn again (at most 50 times, and counted): any of "start-overlap"
-    (a sweep that begins inside), "hit", "clear", "uncertain", "touching" (clear, but the surfaces share a point).
+    name: as in the tables. question: what its cases ask. exposes: one line, what it tells methods
+    apart by. axis: what the difficulty is, with its unit. levels: the values it takes, easy to
+    hard. generate(rng, level) -> Draft: aims at the difficulty; the label comes from the
+    certificate and never from the aim. precision: "float64": a case is what `generate` drew, number
+    for number; engines that compute or hold bodies in single precision are asked about bodies that
+    they cannot hold, and the tables mark them. "float32": poses, motions and vertices are rounded
+    to float32 first, so that all engines are asked the same. redraw_if: what makes a case useless,
+    so that it is drawn again (at most 50 times, and counted): any of "start-overlap" (a sweep that
+    begins inside), "hit", "clear", "uncertain", "touching" (clear, but the surfaces share a point).
     Raises ValueError for another precision, or another word in redraw_if.
     """
 
@@ -62,12 +65,16 @@ class Scenario:
 
     def __post_init__(self):
         if self.precision not in PRECISIONS:
-            raise ValueError(f"Scenario '{self.name}' has the precision '{self.precision}'; "
-                             f"it must be one of {', '.join(PRECISIONS)}.")
+            raise ValueError(
+                f"Scenario '{self.name}' has the precision '{self.precision}'; "
+                f"it must be one of {', '.join(PRECISIONS)}."
+            )
         wrong = sorted(set(self.redraw_if) - set(USELESS))
         if wrong:
-            raise ValueError(f"Scenario '{self.name}' is drawn again if {', '.join(wrong)}; "
-                             f"redraw_if takes {', '.join(USELESS)}.")
+            raise ValueError(
+                f"Scenario '{self.name}' is drawn again if {', '.join(wrong)}; "
+                f"redraw_if takes {', '.join(USELESS)}."
+            )
 
     def case(self, seed: int, level: float, index: int, attempt: int = 0) -> Case:
         """The same case for the same arguments, whatever was made before it.
@@ -79,17 +86,26 @@ class Scenario:
         try:
             d = self.generate(np.random.default_rng(key), level)
             if not isinstance(d, Draft):
-                raise TypeError(f"generate returned {type(d).__name__}, not a Draft (of experiments.cases.scenario).")
+                raise TypeError(
+                    f"generate returned {type(d).__name__}, not a Draft (of"
+                    " experiments.cases.scenario)."
+                )
             query = Query(self.question, d.a, d.b, d.pose_a, d.pose_b, d.motion, d.motion_b)
             query = snap_query(query) if self.precision == "float32" else query
         except (ValueError, TypeError) as error:
-            raise ScenarioError(f"Scenario '{self.name}' drew no case at level {level:g}, index {index}, seed {seed}: {error}") from error
+            raise ScenarioError(
+                f"Scenario '{self.name}' drew no case at level {level:g}, index {index}, seed"
+                f" {seed}: {error}"
+            ) from error
         name = f"{self.name}/{level:g}/{index:04d}"
         return Case(name, self.name, float(level), index, query, dict(d.tags or {}), self.precision)
 
     def check_level(self, level: float) -> None:
         if level not in self.levels:
-            raise ValueError(f"Scenario '{self.name}' has no level {level:g}. Its axis is {self.axis}; it takes {', '.join(f'{v:g}' for v in self.levels)}.")
+            raise ValueError(
+                f"Scenario '{self.name}' has no level {level:g}. Its axis is {self.axis}; it takes"
+                f" {', '.join(f'{v:g}' for v in self.levels)}."
+            )
 
     def useless(self, truth: Truth) -> bool:
         found = {truth.label}
@@ -112,12 +128,18 @@ def snap_query(query: Query) -> Query:
 
     ValueError where a body is none any more, or a number is too large.
     """
-    sides = [snap_body(query.a), snap_body(query.b), snap_pose(query.pose_a), snap_pose(query.pose_b)]
+    sides = [
+        snap_body(query.a),
+        snap_body(query.b),
+        snap_pose(query.pose_a),
+        snap_pose(query.pose_b),
+    ]
     return Query(query.question, *sides, snap_motion(query.motion), snap_motion(query.motion_b))
 
 
 def snap_body(body: Body) -> Body:
-    """The body with vertices snapped, made anew and checked where one changes; else the body itself.
+    """The body with vertices snapped, made anew and checked where one changes; else the body
+    itself.
 
     ValueError where it is no body any more.
     """
@@ -131,8 +153,10 @@ def snap_body(body: Body) -> Body:
             return Body.mesh(vertices, body.faces, body.name)
         return Body.convex(vertices, body.name)
     except BodyError as error:
-        raise ValueError(f"rounded to float32, a body is none any more. {error} Draw it larger beside its "
-                         'distance from its frame\'s origin, or declare precision = "float64".') from error
+        raise ValueError(
+            f"rounded to float32, a body is none any more. {error} Draw it larger beside its "
+            'distance from its frame\'s origin, or declare precision = "float64".'
+        ) from error
 
 
 def snap_pose(pose: Pose) -> Pose:
@@ -140,4 +164,9 @@ def snap_pose(pose: Pose) -> Pose:
 
 
 def snap_motion(motion: Motion) -> Motion:
-    return Motion(snap(motion.displacement), snap(motion.axis), float(np.float32(motion.angle)), snap(motion.about))
+    return Motion(
+        snap(motion.displacement),
+        snap(motion.axis),
+        float(np.float32(motion.angle)),
+        snap(motion.about),
+    )

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections import Counter
 
 from baselines import registry
-
-from experiments.cases import families
 from experiments.analysis.tables import tables
+from experiments.cases import families
 from experiments.run.config import ConfigError, RunConfig, ScenarioChoice, closest, load_files
 from experiments.studies.stepping import experiment as stepping
 
@@ -37,13 +36,16 @@ def _check_methods(config: RunConfig) -> None:
             here = f"{field}.{i} '{spec}'"
             for label in _labels(spec, here):
                 if label in found:
-                    raise ConfigError(f"{here} names '{label}', which {found[label]} names too; "
-                                      "keep one of them.")
+                    raise ConfigError(
+                        f"{here} names '{label}', which {found[label]} names too; keep one of them."
+                    )
                 found[label] = here
     reference = config.timing.reference
     if reference and reference not in found:
-        raise ConfigError(f"timing.reference '{reference}' is no method of the run"
-                          f"{closest(reference, found)}; it has {', '.join(found)}.")
+        raise ConfigError(
+            f"timing.reference '{reference}' is no method of the run"
+            f"{closest(reference, found)}; it has {', '.join(found)}."
+        )
 
 
 def _labels(spec: str, here: str) -> list[str]:

@@ -1,10 +1,12 @@
-"""Runs of others are read as data: their own files are not run, and what is strange in them is said in a paragraph."""
+"""Runs of others are read as data: their own files are not run, and what is strange in them is said
+in a paragraph.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Iterator
 
 import typer
 from rich.console import Console
@@ -26,14 +28,19 @@ def opened(folder: Path, trust: bool) -> Store:
 
 @contextmanager
 def reading(*folders: Path) -> Iterator[None]:
-    """What a folder or a file from outside makes fail, however strange, is an error of one paragraph and no traceback.
+    """What a folder or a file from outside makes fail, however strange, is an error of one
+    paragraph and no traceback.
 
-    A net: record.py and rows.py find what is wrong and name it, or that is a fault of theirs."""
+    A net: record.py and rows.py find what is wrong and name it, or that is a fault of theirs.
+    """
     try:
         yield
     except (ValueError, StoreError, ImportError, OSError, typer.Exit):
         raise
     except Exception as error:
         names = " or ".join(map(str, folders))
-        raise StoreError(f"What {names} holds does not fit together ({type(error).__name__}: {given.reason(error)}). It was changed or is "
-                         "damaged; take it anew from where it was made, or make it again.") from error
+        raise StoreError(
+            f"What {names} holds does not fit together ({type(error).__name__}:"
+            f" {given.reason(error)}). It was changed or is damaged; take it anew from where it was"
+            " made, or make it again."
+        ) from error

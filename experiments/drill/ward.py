@@ -11,7 +11,7 @@ from pathlib import Path
 import pandas as pd
 
 from .command import Attempt, Bench, Ending
-from .faulty.kind import ERROR, Kind, TIMEOUT
+from .faulty.kind import ERROR, TIMEOUT, Kind
 from .outcome import EQUAL, FAILED, FILES, Outcome, misconduct
 
 METHOD_FILE = Path(__file__).parent / "faulty" / "methods.py"

@@ -1,6 +1,7 @@
 """Draws the figures of ofg/ARTICLE.md: python -m experiments.publish.article FOLDER
 
-What is coloured is what the core says or what the article's steps give for the case drawn, never a sketch.
+What is coloured is what the core says or what the article's steps give for the case drawn, never a
+sketch.
 """
 
 from __future__ import annotations
@@ -17,8 +18,9 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 import ofg
 from experiments.cases import families
-from .report.selection import trace
 from ofg import Body, Pose, Query
+
+from .report.selection import trace
 
 A, B, CHOSEN_A, CHOSEN_B = "#9ecae1", "#fdd0a2", "#08519c", "#d94801"
 
@@ -31,8 +33,12 @@ def case(scenario: str, level: float, **tags) -> Query:
     return next(c.query for c in drawn if all(c.tags.get(k) == v for k, v in wanted.items()))
 
 
-def scene(query: Query, width: float, title: str, place=(1, 1, 1), seen_from=(18, -60), aside=(0, 0, 0)) -> plt.Axes:
-    """Axes about the middle of A's way, moved by `aside`, `width` to each side, seen from (elevation, azimuth) in degrees."""
+def scene(
+    query: Query, width: float, title: str, place=(1, 1, 1), seen_from=(18, -60), aside=(0, 0, 0)
+) -> plt.Axes:
+    """Axes about the middle of A's way, moved by `aside`, `width` to each side, seen from
+    (elevation, azimuth) in degrees.
+    """
     ax = plt.gcf().add_subplot(*place, projection="3d", proj_type="ortho", computed_zorder=False)
     ax.set_title(title, fontsize=9)
     middle = query.pose_a.position + query.motion.displacement / 2 + aside
@@ -44,9 +50,15 @@ def scene(query: Query, width: float, title: str, place=(1, 1, 1), seen_from=(18
     return ax
 
 
-def faces(ax, body: Body, pose: Pose, ids, colour: str, alpha: float, order: int, edge="#555555") -> None:
+def faces(
+    ax, body: Body, pose: Pose, ids, colour: str, alpha: float, order: int, edge="#555555"
+) -> None:
     corners = pose.apply(body.vertices)[body.faces[ids]]
-    ax.add_collection3d(Poly3DCollection(corners, facecolors=colour, edgecolors=edge, linewidths=0.4, alpha=alpha, zorder=order))
+    ax.add_collection3d(
+        Poly3DCollection(
+            corners, facecolors=colour, edgecolors=edge, linewidths=0.4, alpha=alpha, zorder=order
+        )
+    )
 
 
 def whole(ax, body: Body, pose: Pose, colour: str, alpha: float, order: int) -> None:
@@ -54,7 +66,9 @@ def whole(ax, body: Body, pose: Pose, colour: str, alpha: float, order: int) -> 
 
 
 def selections(path: Path) -> None:
-    """Steps 2 to 5: the k faces of each body, for two k; at the start of the turn, as the article makes them."""
+    """Steps 2 to 5: the k faces of each body, for two k; at the start of the turn, as the article
+    makes them.
+    """
     query = case("article_table", 0.1)
     start = Query("overlap", query.a, query.b, query.pose_a, query.pose_b)
     plt.figure(figsize=(7, 3.2))
@@ -89,12 +103,18 @@ def pieces(path: Path) -> None:
     query = case("article_pieces", -0.01)
     picked, meeting = ofg.ask(query, k=12).pieces, ofg.ask(query, k=12, repairs="all").pieces
     plt.figure(figsize=(7, 3.2))
-    for i, (chosen, title) in enumerate(((picked, "the pieces that the scheme picks"), (meeting, "the pieces that meet"))):
+    for i, (chosen, title) in enumerate(
+        ((picked, "the pieces that the scheme picks"), (meeting, "the pieces that meet"))
+    ):
         ax = scene(query, 2.0, title, (1, 2, i + 1), (65, -80), (0.9, 1.4, 0))
-        for side, (body, pose, pale, dark) in enumerate(((query.b, query.pose_b, B, CHOSEN_B), (query.a, query.pose_a, A, CHOSEN_A))):
+        for side, (body, pose, pale, dark) in enumerate(
+            ((query.b, query.pose_b, B, CHOSEN_B), (query.a, query.pose_a, A, CHOSEN_A))
+        ):
             for j, piece in enumerate(body.pieces):
                 own = chosen[1 - side] == j
-                whole(ax, piece, pose, dark if own else pale, 0.7 if own else 0.3, 2 * side + own + 1)
+                whole(
+                    ax, piece, pose, dark if own else pale, 0.7 if own else 0.3, 2 * side + own + 1
+                )
     save(path)
 
 

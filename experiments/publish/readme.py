@@ -11,7 +11,8 @@ MARK = re.compile(
 
 
 def fill(page: str, tables: Path) -> str:
-    """The page with what stands between `<!-- table NAME -->` and `<!-- end -->` replaced by tables/NAME.md.
+    """The page with what stands between `<!-- table NAME -->` and `<!-- end -->` replaced by
+    tables/NAME.md.
 
     `<!-- table NAME of RUN -->` takes it from the run folder RUN beside that of `tables`.
     ValueError if the run has no table of that name.
@@ -22,7 +23,10 @@ def fill(page: str, tables: Path) -> str:
         path = folder / f"{match['name']}.md"
         if not path.is_file():
             known = ", ".join(sorted(p.stem for p in folder.glob("*.md")))
-            raise ValueError(f"The page asks for the table '{match['name']}', which the run does not have. It has: {known}.")
+            raise ValueError(
+                f"The page asks for the table '{match['name']}', which the run does not have. It"
+                f" has: {known}."
+            )
         return f"{match[1]}{path.read_text()}{match[4]}"
 
     return MARK.sub(table, page)

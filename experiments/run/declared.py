@@ -1,4 +1,6 @@
-"""What a run's own methods and scenarios declare, recorded with it: so that it can be read without running their files."""
+"""What a run's own methods and scenarios declare, recorded with it: so that it can be read without
+running their files.
+"""
 
 from __future__ import annotations
 
@@ -10,13 +12,15 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from baselines import registry
 from baselines.contract import Method, Unsupported
 from baselines.tolerance import NONE, Tolerance
-
 from experiments.cases import families
-from .config import RunConfig
 from experiments.cases.scenario import Scenario
+
+from .config import RunConfig
 from .folder.store import Store, StoreError
 
-MODULE = "baselines_file_recorded"  # begins like the module of a method file, which may take its place
+MODULE = (  # begins like the module of a method file, which may take its place
+    "baselines_file_recorded"
+)
 Question = Literal["overlap", "translation", "motion"]
 
 
@@ -63,21 +67,39 @@ class Declared(_Recorded):
 
 
 def of(config: RunConfig) -> dict:
-    """What a run is to record of its own methods and scenarios, which are loaded already; {} where it has none."""
+    """What a run is to record of its own methods and scenarios, which are loaded already; {} where
+    it has none.
+    """
     classes = {spec.split()[0]: registry.methods()[spec.split()[0]] for spec in config.asked}
-    own = {name: cls for name, cls in classes.items() if not cls.__module__.startswith("baselines.")}
+    own = {
+        name: cls for name, cls in classes.items() if not cls.__module__.startswith("baselines.")
+    }
     drawn = [families.get(c.name) for c in config.scenarios if c.name not in families.own_modules()]
     if not own and not drawn:
         return {}
-    made = {"methods": {name: _method(cls) for name, cls in own.items()},
-            "scenarios": {s.name: ScenarioFacts(question=s.question, exposes=s.exposes, axis=s.axis, levels=[float(v) for v in s.levels])
-                          for s in drawn}}
+    made = {
+        "methods": {name: _method(cls) for name, cls in own.items()},
+        "scenarios": {
+            s.name: ScenarioFacts(
+                question=s.question,
+                exposes=s.exposes,
+                axis=s.axis,
+                levels=[float(v) for v in s.levels],
+            )
+            for s in drawn
+        },
+    }
     return {"declared": Declared.model_validate(made).model_dump()}
 
 
 def _method(cls) -> MethodFacts:
     said = {name: getattr(cls, name) for name in MethodFacts.model_fields}
-    said.update(questions=sorted(cls.questions), bodies=sorted(cls.bodies), tolerance=_tolerance(cls), parameters=dict(cls.parameters))
+    said.update(
+        questions=sorted(cls.questions),
+        bodies=sorted(cls.bodies),
+        tolerance=_tolerance(cls),
+        parameters=dict(cls.parameters),
+    )
     if not isinstance(said["precision"], str):  # a property, that its parameters decide
         said["precision"] = "double"
     said["decomposes"] = said["decomposes"] is True  # False of a property too
@@ -90,7 +112,8 @@ def _tolerance(cls) -> dict:
 
 
 def know(store: Store) -> list[str]:
-    """Make what a run recorded of its own methods and scenarios known, without running anything of it.
+    """Make what a run recorded of its own methods and scenarios known, without running anything of
+    it.
 
     Returns notices: which files are not run, and of which methods nothing is recorded.
     """
@@ -98,15 +121,21 @@ def know(store: Store) -> list[str]:
     try:
         said = Declared.model_validate(store.facts.get("declared", {}))
     except ValidationError as error:
-        raise StoreError(f"{store.folder / 'manifest.json'} declares methods or scenarios in a form that cannot be read: "
-                         f"{error.error_count()} wrong field(s) in 'declared'. Take the run anew from where it was made.") from error
+        raise StoreError(
+            f"{store.folder / 'manifest.json'} declares methods or scenarios in a form that cannot"
+            f" be read: {error.error_count()} wrong field(s) in 'declared'. Take the run anew from"
+            " where it was made."
+        ) from error
     known = registry.methods()
     for name, facts in said.methods.items():
         if name not in known or known[name].__module__ == MODULE:
             known[name] = _stand_in(name, facts)
     for name, facts in said.scenarios.items():
         if name not in families.own_modules():
-            families.scenarios().setdefault(name, Scenario(name, facts.question, facts.exposes, facts.axis, facts.levels, _undrawn))
+            families.scenarios().setdefault(
+                name,
+                Scenario(name, facts.question, facts.exposes, facts.axis, facts.levels, _undrawn),
+            )
     return _notices(config, known)
 
 
@@ -114,10 +143,17 @@ def _notices(config: RunConfig, known) -> list[str]:
     files = ", ".join((*config.method_files, *config.scenario_files))
     if not files:
         return []
-    said = [f"The run names Python files of its own ({files}); they are not run. --trust runs them."]
-    unknown = dict.fromkeys(spec.split()[0] for spec in config.asked if spec.split() and spec.split()[0] not in known)
-    said += [f"Method '{name}' is not known here; its declaration is unknown (its tolerance is taken as none); pass --trust to load {files}."
-             for name in unknown]
+    said = [
+        f"The run names Python files of its own ({files}); they are not run. --trust runs them."
+    ]
+    unknown = dict.fromkeys(
+        spec.split()[0] for spec in config.asked if spec.split() and spec.split()[0] not in known
+    )
+    said += [
+        f"Method '{name}' is not known here; its declaration is unknown (its tolerance is taken as"
+        f" none); pass --trust to load {files}."
+        for name in unknown
+    ]
     return said
 
 
@@ -125,8 +161,14 @@ def _stand_in(name: str, facts: MethodFacts) -> type[Method]:
     """A method that says what was recorded of it, and answers nothing."""
     said = facts.model_dump()
     said["tolerance"] = Tolerance(**said["tolerance"])
-    said.update(name=name, imports="", questions=frozenset(facts.questions), bodies=frozenset(facts.bodies), prepare=_unasked,
-                __module__=MODULE)
+    said.update(
+        name=name,
+        imports="",
+        questions=frozenset(facts.questions),
+        bodies=frozenset(facts.bodies),
+        prepare=_unasked,
+        __module__=MODULE,
+    )
     return type(name, (Method,), said)
 
 

@@ -9,21 +9,21 @@ import pandas as pd
 
 import ofg
 from baselines import registry
+from experiments.cases.case import Case
+from experiments.cases.label import Truth
+from experiments.cases.scenario import snap
 from ofg import Body, BodyError, Query
 
-from .folder import origin
 from . import words
-from experiments.cases.case import Case
 from .config import RunConfig
+from .folder import origin
+from .folder.rows import body_of, body_row, cases_of, truth_row
+from .folder.shard import Shard
+from .folder.store import Store
 from .labelling import CHUNK
 from .piece_truth import FILES
 from .processes.pool import Loss, Task, mixed, run
 from .progress import stage
-from .folder.rows import body_of, body_row, cases_of, truth_row
-from experiments.cases.scenario import snap
-from .folder.shard import Shard
-from .folder.store import Store
-from experiments.cases.label import Truth
 
 DECOMPOSE_SECONDS, LABEL_SECONDS = 4.0, 0.2  # of one body, of one case: only what progress expects
 
@@ -75,7 +75,9 @@ def meshes_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> list[Body]:
 
 
 def pieces_of(mesh: Body) -> tuple[Body, str]:
-    """What methods put in place of a mesh, and ""; the mesh itself and the reason if it has none."""
+    """What methods put in place of a mesh, and ""; the mesh itself and the reason if it has
+    none.
+    """
     try:
         return ofg.decompose(mesh), ""
     except BodyError as error:
@@ -83,7 +85,7 @@ def pieces_of(mesh: Body) -> tuple[Body, str]:
 
 
 def precision_of(query: Query, precision: str) -> str:
-    """"float32" if that of the case is, and every vertex of the pieces is a float32 number."""
+    """ "float32" if that of the case is, and every vertex of the pieces is a float32 number."""
     exact = all(np.array_equal(snap(b.vertices), b.vertices) for b in (query.a, query.b))
     return precision if exact else "float64"
 
@@ -106,12 +108,23 @@ def _decomposed(store: Store, config: RunConfig, workers: int, meshes) -> dict:
             ((pieces, fault),) = results
             row = {**body_row(pieces), "mesh": mesh.digest, "fault": fault}
             store.write(pd.DataFrame([row]), name)
+
         return done
 
-    tasks = [Task(open_mesh, None, [mesh], keep(mesh, name), lost_mesh)
-             for mesh, name in zip(meshes, names) if not name.ready()]
-    _run("decompose meshes", store, tasks, workers, config.build_seconds, len(meshes),
-         DECOMPOSE_SECONDS)
+    tasks = [
+        Task(open_mesh, None, [mesh], keep(mesh, name), lost_mesh)
+        for mesh, name in zip(meshes, names)
+        if not name.ready()
+    ]
+    _run(
+        "decompose meshes",
+        store,
+        tasks,
+        workers,
+        config.build_seconds,
+        len(meshes),
+        DECOMPOSE_SECONDS,
+    )
     rows = pd.concat([store.read(name) for name in names], ignore_index=True)
     return {row.mesh: (body_of(row), row.fault) for row in rows.itertuples()}
 
@@ -127,16 +140,23 @@ def lost_mesh(mesh: Body, loss: Loss) -> tuple[Body, str]:
 
 
 def _certified(store: Store, config: RunConfig, workers: int, items: list[Item]) -> pd.DataFrame:
-    chunks = [items[i:i + CHUNK] for i in range(0, len(items), CHUNK)]
-    facts = {**origin.facts(), "cases": store.digest("cases.parquet"),
-             "bodies": store.digest(FILES[1]), "label_seconds": config.label_seconds}
+    chunks = [items[i : i + CHUNK] for i in range(0, len(items), CHUNK)]
+    facts = {
+        **origin.facts(),
+        "cases": store.digest("cases.parquet"),
+        "bodies": store.digest(FILES[1]),
+        "label_seconds": config.label_seconds,
+    }
     names = [store.shard("pieces", **facts, chunk=[i.case for i in chunk]) for chunk in chunks]
 
     def keep(name: Shard):
         return lambda rows: store.write(pd.DataFrame(rows), name)
 
-    tasks = [Task(_open_label, None, chunk, keep(name), _lost)
-             for chunk, name in zip(chunks, names) if not name.ready()]
+    tasks = [
+        Task(_open_label, None, chunk, keep(name), _lost)
+        for chunk, name in zip(chunks, names)
+        if not name.ready()
+    ]
     _run("certify pieces", store, tasks, workers, config.label_seconds, len(items), LABEL_SECONDS)
     return pd.concat([store.read(name) for name in names], ignore_index=True)
 
@@ -166,8 +186,12 @@ def no_pieces(item: Item) -> Truth:
 
 def place(item: Item) -> dict:
     """The columns of a row of pieces.parquet that say what it is about."""
-    return {"case": item.case, "body_a": item.query.a.digest, "body_b": item.query.b.digest,
-            "precision": item.precision}
+    return {
+        "case": item.case,
+        "body_a": item.query.a.digest,
+        "body_b": item.query.b.digest,
+        "precision": item.precision,
+    }
 
 
 def _lost(item: Item, loss: Loss) -> dict:

@@ -13,8 +13,11 @@ _KINDS = {"method_files": "method", "scenario_files": "scenario"}
 
 def copies(config: RunConfig) -> dict[str, Path]:
     """Name of the copy in RUN/own -> the file. Numbered, as two files may have one name."""
-    return {f"{kind}-{i}-{Path(path).name}": Path(path) for field, kind in _KINDS.items()
-            for i, path in enumerate(getattr(config, field))}
+    return {
+        f"{kind}-{i}-{Path(path).name}": Path(path)
+        for field, kind in _KINDS.items()
+        for i, path in enumerate(getattr(config, field))
+    }
 
 
 def digests(paths: tuple[str, ...]) -> list[str]:
@@ -32,8 +35,10 @@ def changed(config: RunConfig, folder: Path) -> str | None:
         if not copy.is_file():
             continue
         what = f"The {name.split('-')[0]} file {path}"
-        remedy = (f"Put it back as it was (a copy is {copy}), or choose another folder with --out "
-                  "for a run of the new one.")
+        remedy = (
+            f"Put it back as it was (a copy is {copy}), or choose another folder with --out "
+            "for a run of the new one."
+        )
         if not path.is_file():
             return f"{what} of the run in {folder} does not exist any more. {remedy}"
         if path.read_bytes() != copy.read_bytes():

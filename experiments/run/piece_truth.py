@@ -53,20 +53,35 @@ def own_error(cases: pd.DataFrame, pieces: pd.DataFrame) -> pd.DataFrame:
     certain = cases.case[cases.label != "uncertain"]
     said = pieces[(pieces.label != "uncertain") & ~pieces.touching.astype(bool)]
     said = said[said.case.isin(certain)]
-    return pd.DataFrame({"case": said.case, "method": NAME, "status": "ok",
-                         "hit": (said.label == "hit").astype("boolean"), "time": float("nan"),
-                         "detail": ""}).reset_index(drop=True)
+    return pd.DataFrame(
+        {
+            "case": said.case,
+            "method": NAME,
+            "status": "ok",
+            "hit": (said.label == "hit").astype("boolean"),
+            "time": float("nan"),
+            "detail": "",
+        }
+    ).reset_index(drop=True)
 
 
 def note(table: pd.DataFrame) -> str:
-    """The sentences under a table that say who is judged by the truth of pieces; "" if nobody is."""
+    """The sentences under a table that say who is judged by the truth of pieces; "" if nobody
+    is.
+    """
     methods = table.method[table.truth == PIECES].unique()
     if not len(methods):
         return ""
-    own = (f" {NAME} is no engine: the certified answers of the pieces, judged by the meshes, where "
-           "both are certified.") if (table.method == NAME).any() else ""
-    return (" Judged on meshes by the certified truth of the pieces that they are decomposed into: "
-            f"{', '.join(methods)}.{own}")
+    own = (
+        f" {NAME} is no engine: the certified answers of the pieces, judged by the meshes, where "
+        "both are certified."
+        if (table.method == NAME).any()
+        else ""
+    )
+    return (
+        " Judged on meshes by the certified truth of the pieces that they are decomposed into: "
+        f"{', '.join(methods)}.{own}"
+    )
 
 
 def as_cases(cases: pd.DataFrame, pieces: pd.DataFrame) -> pd.DataFrame:

@@ -1,4 +1,6 @@
-"""What methods say of themselves, made fit for a table: short, one line, valid text, and never an error of ours."""
+"""What methods say of themselves, made fit for a table: short, one line, valid text, and never an
+error of ours.
+"""
 
 from __future__ import annotations
 

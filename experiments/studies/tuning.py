@@ -21,10 +21,9 @@ import pandas as pd
 
 from baselines import registry, units
 from baselines.sampling import Substeps
-
-from experiments.run import answering, config
 from experiments.cases import families
 from experiments.cases.case import Case
+from experiments.run import answering, config
 from experiments.run.processes.pool import Task, mixed, run
 from experiments.run.progress import stage
 from experiments.truth import label_many
@@ -37,21 +36,37 @@ FACES = 1000
 
 def tuned() -> list[str]:
     """The methods whose unit is chosen: not the substeps, or pieces, of another one."""
-    own = {name: cls for name, cls in registry.methods().items()
-           if issubclass(cls, units.Normalised) and not issubclass(cls, Substeps)}
-    return [name for name, cls in own.items()
-            if not any(base in own.values() for base in cls.__mro__[1:])]
+    own = {
+        name: cls
+        for name, cls in registry.methods().items()
+        if issubclass(cls, units.Normalised) and not issubclass(cls, Substeps)
+    }
+    return [
+        name
+        for name, cls in own.items()
+        if not any(base in own.values() for base in cls.__mro__[1:])
+    ]
 
 
 def cases() -> list[tuple[Case, str]]:
     """(case, label "hit" or "clear") of every family and level."""
-    drawn = [(family, family.case(SEED, level, index)) for family in families.scenarios().values()
-             for level in family.levels for index in range(CASES[family.question])]
-    small = [(family, case) for family, case in drawn
-             if max(len(case.query.a.faces), len(case.query.b.faces)) <= FACES]
+    drawn = [
+        (family, family.case(SEED, level, index))
+        for family in families.scenarios().values()
+        for level in family.levels
+        for index in range(CASES[family.question])
+    ]
+    small = [
+        (family, case)
+        for family, case in drawn
+        if max(len(case.query.a.faces), len(case.query.b.faces)) <= FACES
+    ]
     truths = label_many([case.query for _, case in small])
-    return [(case, truth.label) for (family, case), truth in zip(small, truths)
-            if truth.label != "uncertain" and not truth.touching and not family.useless(truth)]
+    return [
+        (case, truth.label)
+        for (family, case), truth in zip(small, truths)
+        if truth.label != "uncertain" and not truth.touching and not family.useless(truth)
+    ]
 
 
 def counts(names: list[str], workers: int) -> pd.DataFrame:
@@ -62,7 +77,7 @@ def counts(names: list[str], workers: int) -> pd.DataFrame:
         questions = registry.methods()[name].questions
         asked = [case for case, _ in labelled if case.query.question in questions]
         rows = found[name, unit] = []
-        chunks = [asked[i:i + answering.CHUNK] for i in range(0, len(asked), answering.CHUNK)]
+        chunks = [asked[i : i + answering.CHUNK] for i in range(0, len(asked), answering.CHUNK)]
         tasks += [Task(_open, (name, unit, limits), chunk, rows.extend, _lost) for chunk in chunks]
     seconds, total = limits.build_seconds + limits.query_seconds, sum(len(t.items) for t in tasks)
     with tempfile.TemporaryDirectory() as folder, stage("ask in each unit", total) as advance:
@@ -83,9 +98,13 @@ def _lost(case: Case, loss) -> dict:
 
 def _count(name: str, unit: float, rows: list[dict], truth: dict[str, str]) -> dict:
     said = [(truth[row["case"]] == "hit", row["hit"]) for row in rows if row["status"] == "ok"]
-    return {"method": name, "unit": unit, "asked": len(rows),
-            "wrong": sum(hit != bool(answer) for hit, answer in said),
-            "unanswered": len(rows) - len(said)}
+    return {
+        "method": name,
+        "unit": unit,
+        "asked": len(rows),
+        "wrong": sum(hit != bool(answer) for hit, answer in said),
+        "unanswered": len(rows) - len(said),
+    }
 
 
 def main() -> None:

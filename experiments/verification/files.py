@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from experiments.run.folder import given, manifest
 from experiments.run.folder.store import Store
+
 from .findings import Findings
 
 

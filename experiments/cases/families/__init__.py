@@ -1,4 +1,6 @@
-"""The scenario families: every file of this folder that does not start with an underscore defines one as SCENARIO."""
+"""The scenario families: every file of this folder that does not start with an underscore defines
+one as SCENARIO.
+"""
 
 from __future__ import annotations
 
@@ -17,19 +19,27 @@ GROUP = "ofg.scenarios"  # entry points of installed packages that bring scenari
 
 @cache
 def scenarios() -> dict[str, Scenario]:
-    """All families by name, in alphabetical order, then those of installed packages. Adding one means adding a file here, and nothing else."""
+    """All families by name, in alphabetical order, then those of installed packages. Adding one
+    means adding a file here, and nothing else.
+    """
     found = {}
     for module in sorted(m.name for m in pkgutil.iter_modules(__path__)):
         if not module.startswith("_"):
             scenario = importlib.import_module(f"{__name__}.{module}").SCENARIO
             if scenario.name != module:
-                raise ValueError(f"Scenario file {module}.py defines a scenario named '{scenario.name}'; the two must be the "
-                                 "same, so that a row of a table leads to its file. Rename one of them.")
+                raise ValueError(
+                    f"Scenario file {module}.py defines a scenario named '{scenario.name}'; the two"
+                    " must be the same, so that a row of a table leads to its file. Rename one of"
+                    " them."
+                )
             found[module] = scenario
     for entry in entry_points(group=GROUP):
         for scenario in _entered(entry):
             if scenario.name in found:
-                raise ValueError(f"The entry point '{entry.name}' of the group {GROUP} brings a scenario '{scenario.name}', a name that is taken; rename one.")
+                raise ValueError(
+                    f"The entry point '{entry.name}' of the group {GROUP} brings a scenario"
+                    f" '{scenario.name}', a name that is taken; rename one."
+                )
             found[scenario.name] = scenario
     return found
 
@@ -39,10 +49,22 @@ def _entered(entry) -> list[Scenario]:
     try:
         loaded = entry.load()
     except Exception as error:
-        raise ValueError(f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded ({type(error).__name__}: {error}); mend or uninstall its package.") from error
-    found = [loaded] if isinstance(loaded, Scenario) else list(loaded) if isinstance(loaded, (list, tuple)) else []
+        raise ValueError(
+            f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded"
+            f" ({type(error).__name__}: {error}); mend or uninstall its package."
+        ) from error
+    found = (
+        [loaded]
+        if isinstance(loaded, Scenario)
+        else list(loaded)
+        if isinstance(loaded, (list, tuple))
+        else []
+    )
     if not found or not all(isinstance(s, Scenario) for s in found):
-        raise ValueError(f"The entry point '{entry.name}' of the group {GROUP} names {loaded!r}; it must name a Scenario or a list of them.")
+        raise ValueError(
+            f"The entry point '{entry.name}' of the group {GROUP} names {loaded!r}; it must name a"
+            " Scenario or a list of them."
+        )
     return found
 
 
@@ -58,23 +80,35 @@ def get(name: str) -> Scenario:
         return known[name]
     close = difflib.get_close_matches(name, known, n=3, cutoff=0.4)
     hint = f"did you mean {', '.join(close)}? " if close else ""
-    raise ValueError(f"Scenario '{name}' is unknown; {hint}The families are: {', '.join(known)}. A scenario of your own is "
-                     "given as the path of a Python file that defines SCENARIO.")
+    raise ValueError(
+        f"Scenario '{name}' is unknown; {hint}The families are: {', '.join(known)}. A scenario of"
+        " your own is given as the path of a Python file that defines SCENARIO."
+    )
 
 
 def load_file(path) -> list[Scenario]:
-    """The scenarios of a Python file outside this folder, which sets SCENARIO, or SCENARIOS (several); they join `scenarios()`.
+    """The scenarios of a Python file outside this folder, which sets SCENARIO, or SCENARIOS
+    (several); they join `scenarios()`.
 
-    ValueError where the file is missing, defines neither, or takes the name of a family of this folder.
+    ValueError where the file is missing, defines neither, or takes the name of a family of this
+    folder.
     """
     path = Path(path)
     module = run_file(path, f"Scenario file {path}", f"scenario_file_{path.stem}", "SCENARIO")
-    found = list(getattr(module, "SCENARIOS", [])) or [s for s in [getattr(module, "SCENARIO", None)] if s is not None]
+    found = list(getattr(module, "SCENARIOS", [])) or [
+        s for s in [getattr(module, "SCENARIO", None)] if s is not None
+    ]
     if not found or not all(isinstance(s, Scenario) for s in found):
-        raise ValueError(f"Scenario file {path} defines no scenario; it must set SCENARIO = Scenario(...), or SCENARIOS to a list "
-                         "of them (from experiments.cases.scenario import Scenario, Draft).")
+        raise ValueError(
+            f"Scenario file {path} defines no scenario; it must set SCENARIO = Scenario(...), or"
+            " SCENARIOS to a list of them (from experiments.cases.scenario import Scenario,"
+            " Draft)."
+        )
     taken = [s.name for s in found if s.name in own_modules()]
     if taken:
-        raise ValueError(f"Scenario file {path}: the name '{taken[0]}' is taken by a family of this project; choose another.")
+        raise ValueError(
+            f"Scenario file {path}: the name '{taken[0]}' is taken by a family of this project;"
+            " choose another."
+        )
     scenarios().update({s.name: s for s in found})
     return found

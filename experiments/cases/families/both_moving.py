@@ -1,9 +1,11 @@
-"""Two bodies fly and turn, each about its centre or another of its points, and meet or stop short."""
+"""Two bodies fly and turn, each about its centre or another of its points, and meet or stop
+short.
+"""
 
 import numpy as np
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import any_direction, in_world, touching
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex
 from ofg import Motion, Pose
 

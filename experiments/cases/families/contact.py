@@ -1,9 +1,11 @@
-"""A body flies onto a feature of another, at an angle to the contact's normal, or stops just short of it."""
+"""A body flies onto a feature of another, at an angle to the contact's normal, or stops just short
+of it.
+"""
 
 import numpy as np
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import seat
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex
 from ofg import Motion
 
@@ -23,7 +25,9 @@ SCENARIO = Scenario(
     name="contact",
     question="translation",
     precision="float32",
-    exposes="the error of the time of impact, by the angle between the path and the contact's normal",
+    exposes=(
+        "the error of the time of impact, by the angle between the path and the contact's normal"
+    ),
     axis="angle to the normal, degrees",
     levels=(0.0, 30.0, 60.0, 80.0, 89.0, 89.9),
     generate=generate,

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import any_direction, in_world, touching
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex, scaled
 from ofg import Body, Pose
 
@@ -16,7 +16,9 @@ def generate(rng, level) -> Draft:
     rotation, position, _ = touching(rng, small, large, small.size)
     if place == "inside":
         position = rng.uniform(0.0, 0.95) * (room - small.radius) * any_direction(rng)
-    return in_world(rng, Draft(small, large, Pose(rotation, position), Pose(), tags={"place": place}))
+    return in_world(
+        rng, Draft(small, large, Pose(rotation, position), Pose(), tags={"place": place})
+    )
 
 
 def inscribed_radius(body: Body) -> float:

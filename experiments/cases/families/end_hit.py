@@ -1,9 +1,11 @@
-"""A body flies onto a feature of another and arrives just before the step ends, or would have just after."""
+"""A body flies onto a feature of another and arrives just before the step ends, or would have just
+after.
+"""
 
 import numpy as np
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import seat
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex
 from ofg import Motion
 
@@ -20,7 +22,10 @@ SCENARIO = Scenario(
     name="end_hit",
     question="translation",
     precision="float32",
-    exposes="the end of the step: hits in its last moment that are lost, and hits of the next step that are counted early",
+    exposes=(
+        "the end of the step: hits in its last moment that are lost, and hits of the next step that"
+        " are counted early"
+    ),
     axis="1 - time of impact",
     levels=tuple(sign * 10.0**-e for e in (2, 4, 6, 8, 10) for sign in (1, -1)),
     generate=generate,

@@ -1,7 +1,9 @@
-"""Two regular bodies, or two uneven ones, of a given number of faces, a little apart or a little inside each other."""
+"""Two regular bodies, or two uneven ones, of a given number of faces, a little apart or a little
+inside each other.
+"""
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import seat
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import box, hull, icosphere
 
 SUBDIVISIONS = {20: 0, 80: 1, 320: 2, 1280: 3, 5120: 4, 20480: 5}
@@ -22,7 +24,10 @@ SCENARIO = Scenario(
     name="face_count",
     question="overlap",
     precision="float32",
-    exposes="how cost grows with the number of faces, and how small a share of them a selection of k faces is",
+    exposes=(
+        "how cost grows with the number of faces, and how small a share of them a selection of k"
+        " faces is"
+    ),
     axis="faces of each body",
     levels=(12.0, *map(float, SUBDIVISIONS)),
     generate=generate,

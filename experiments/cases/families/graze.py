@@ -1,7 +1,9 @@
-"""A body slides past another with a prescribed clearance, or scrapes it by as much, on a path parallel to the contact plane."""
+"""A body slides past another with a prescribed clearance, or scrapes it by as much, on a path
+parallel to the contact plane.
+"""
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import seat
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex
 from ofg import Motion
 
@@ -11,10 +13,11 @@ def generate(rng, level) -> Draft:
     x, y = rng.choice([-1, 1], 2) * rng.integers(1, 8, 2)
     clearance = s.tags["aim"] = level * s.size
     half = s.exact(x, y, 0, 1.5 * max(s.a.size, s.b.size))
-    # Closest at t = 16 / odd, not at the middle: a path sampled at i / n with an even n would look at that very instant (16 substeps
-    # then missed none of 64 scrapes, 15 missed 35).
+    # Closest at t = 16 / odd, not at the middle: a path sampled at i / n with an even n would look
+    # at that very instant (16 substeps then missed none of 64 scrapes, 15 missed 35).
     whole = half * rng.choice([27, 29, 31, 33, 35, 37]) / 16
-    # The clearance sits in B's position and the path in A's: their sum would round the clearance away.
+    # The clearance sits in B's position and the path in A's: their sum would round the clearance
+    # away.
     return s.draft(-half, -clearance * s.normal, Motion(whole), finest=clearance)
 
 

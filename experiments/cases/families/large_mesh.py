@@ -1,7 +1,9 @@
-"""Meshes of real objects of thousands of faces, the extreme vertex of one held near a point of the other's surface."""
+"""Meshes of real objects of thousands of faces, the extreme vertex of one held near a point of the
+other's surface.
+"""
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import in_world, touching
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import LARGE_MESHES, real_concave
 from ofg import Pose
 
@@ -9,7 +11,9 @@ from ofg import Pose
 def generate(rng, level) -> Draft:
     a, b = (real_concave(list(LARGE_MESHES)[rng.integers(len(LARGE_MESHES))]) for _ in range(2))
     rotation, position, _ = touching(rng, a, b, level * b.size)
-    return in_world(rng, Draft(a, b, Pose(rotation, position), Pose(), tags={"bodies": f"{a.name} on {b.name}"}))
+    return in_world(
+        rng, Draft(a, b, Pose(rotation, position), Pose(), tags={"bodies": f"{a.name} on {b.name}"})
+    )
 
 
 SCENARIO = Scenario(

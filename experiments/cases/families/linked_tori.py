@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import in_world
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import torus
 from ofg import Pose
 
@@ -15,7 +15,8 @@ def generate(rng, level) -> Draft:
     sections = int(rng.choice([8, 12, 16]))
     body = torus(RADIUS, tube, sections, AROUND, form)
     flat = tube * np.cos(np.pi / AROUND)  # both tubes turn a flat side to the contact
-    # A about z, turned so that a flat stretch of its inner side crosses the x axis; B stands across it with a kink there.
+    # A about z, turned so that a flat stretch of its inner side crosses the x axis; B stands across
+    # it with a kink there.
     half = np.pi / sections
     wall = (RADIUS - flat) * np.cos(half)
     a = Pose([np.cos(half / 2), 0, 0, np.sin(half / 2)])
@@ -27,7 +28,10 @@ SCENARIO = Scenario(
     name="linked_tori",
     question="overlap",
     precision="float32",
-    exposes="concavity: hulls overlap, surfaces are linked, and only the right pieces tell whether the solids meet",
+    exposes=(
+        "concavity: hulls overlap, surfaces are linked, and only the right pieces tell whether the"
+        " solids meet"
+    ),
     axis="signed gap / size",
     levels=tuple(sign * g for g in (0.05, 0.01, 1e-3, 1e-4, 1e-5) for sign in (1, -1)),
     generate=generate,

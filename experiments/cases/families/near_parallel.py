@@ -1,9 +1,11 @@
-"""A face on another, tilted by next to nothing, and pressed in or lifted by less than the tilt's own height."""
+"""A face on another, tilted by next to nothing, and pressed in or lifted by less than the tilt's
+own height.
+"""
 
 import numpy as np
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import IDENTITY, UPSIDE_DOWN, multiply, rest_on
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex, box
 from ofg import Pose
 
@@ -27,7 +29,9 @@ def generate(rng, level) -> Draft:
 
 
 def _about_the_face(tilt: float, direction: float) -> np.ndarray:
-    """The quaternion of a turn by `tilt` about an axis in z = 0; `direction` is the axis's angle."""
+    """The quaternion of a turn by `tilt` about an axis in z = 0; `direction` is the axis's
+    angle.
+    """
     half = np.tan(tilt / 2)
     return np.array([1, half * np.cos(direction), half * np.sin(direction), 0])
 

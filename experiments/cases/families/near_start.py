@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import seat
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex
 from ofg import Motion
 
@@ -15,7 +15,9 @@ def generate(rng, level) -> Draft:
     tilt, heading = np.radians(s.tags["angle"]), rng.uniform(0, 2 * np.pi)
     tangent = s.matrix[:, :2] @ [np.cos(heading), np.sin(heading)] / s.unit
     sign = 1 if s.tags["place"] == "away" else -1
-    travel = s.size * rng.uniform(0.2, 2.0) * (np.sin(tilt) * tangent + sign * np.cos(tilt) * s.normal)
+    travel = (
+        s.size * rng.uniform(0.2, 2.0) * (np.sin(tilt) * tangent + sign * np.cos(tilt) * s.normal)
+    )
     return s.draft(level * s.size * s.normal, [0, 0, 0], Motion(travel), finest=level * s.size)
 
 

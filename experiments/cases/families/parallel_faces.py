@@ -1,9 +1,11 @@
-"""Two faces that are parallel, or tilted by next to nothing, with a gap between them or inside each other."""
+"""Two faces that are parallel, or tilted by next to nothing, with a gap between them or inside each
+other.
+"""
 
 from dataclasses import replace
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import seat
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex, box, hull_of, scaled
 from ofg import Body
 
@@ -15,7 +17,9 @@ def generate(rng, level) -> Draft:
 
 
 def tilted(body: Body, slope: float) -> Body:
-    """The body with its ground face sheared by `slope` along x, not below z = 0: a pose could not hold a tilt of 1e-12."""
+    """The body with its ground face sheared by `slope` along x, not below z = 0: a pose could not
+    hold a tilt of 1e-12.
+    """
     v = body.vertices.copy()
     ground = v[:, 2] == 0
     v[ground, 2] = slope * (v[ground, 0] - v[ground, 0].min())

@@ -1,8 +1,10 @@
-"""Meshes of real objects thrown at one another while they turn: onto a point of the surface, just short of it, or past."""
+"""Meshes of real objects thrown at one another while they turn: onto a point of the surface, just
+short of it, or past.
+"""
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import in_world
 from experiments.cases.realistic import throw
+from experiments.cases.scenario import Draft, Scenario
 
 
 def generate(rng, level) -> Draft:

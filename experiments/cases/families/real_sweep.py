@@ -1,8 +1,10 @@
-"""Meshes of real objects thrown at a point of one another's surface, from outside: right through, just short of it, or past."""
+"""Meshes of real objects thrown at a point of one another's surface, from outside: right through,
+just short of it, or past.
+"""
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import in_world
 from experiments.cases.realistic import throw
+from experiments.cases.scenario import Draft, Scenario
 
 
 def generate(rng, level) -> Draft:
@@ -13,7 +15,9 @@ SCENARIO = Scenario(
     name="real_sweep",
     question="translation",
     precision="float32",
-    exposes="sweeps of real meshes: hollow bodies, pieces, and thin parts of a few uneven triangles",
+    exposes=(
+        "sweeps of real meshes: hollow bodies, pieces, and thin parts of a few uneven triangles"
+    ),
     axis="travel / size of the body hit",
     levels=(2.0, 5.0, 20.0),
     generate=generate,

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import any_direction, in_world, touching
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex
 from ofg import Motion, Pose
 

@@ -1,7 +1,7 @@
 """The same contact in every unit of length: both bodies, and the gap, times one factor."""
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import seat
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex, scaled
 
 
@@ -15,7 +15,10 @@ SCENARIO = Scenario(
     name="scale",
     question="overlap",
     precision="float32",
-    exposes="tolerances and margins in units of length: micrometres and kilometres are the same question",
+    exposes=(
+        "tolerances and margins in units of length: micrometres and kilometres are the same"
+        " question"
+    ),
     axis="factor on all lengths",
     levels=(1.0, 1e-3, 1e3, 1e-6, 1e6, 1e-9, 1e9),
     generate=generate,

@@ -1,7 +1,9 @@
-"""A body flies through a thin wall within one step, or past its rim; both ends of the step are clear."""
+"""A body flies through a thin wall within one step, or past its rim; both ends of the step are
+clear.
+"""
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import flight_through, in_world
+from experiments.cases.scenario import Draft, Scenario
 
 
 def generate(rng, level) -> Draft:

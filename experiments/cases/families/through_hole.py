@@ -1,9 +1,11 @@
-"""A body flies through the hole of a frame, clear of its inner side or scraping it; or the frame flies over the body."""
+"""A body flies through the hole of a frame, clear of its inner side or scraping it; or the frame
+flies over the body.
+"""
 
 import numpy as np
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import any_rotation, in_world
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex, frame, scaled
 from ofg import Motion, Pose
 
@@ -16,7 +18,8 @@ def generate(rng, level) -> Draft:
     body = any_convex(rng)
     body = scaled(body, float(np.float32(0.4 / body.radius)))
     rotation = any_rotation(rng)
-    side = np.array([np.cos(np.pi / SIDES), np.sin(np.pi / SIDES), 0.0])  # the normal of one inner side
+    # the normal of one inner side
+    side = np.array([np.cos(np.pi / SIDES), np.sin(np.pi / SIDES), 0.0])
     turned = Pose(rotation).apply(body.vertices)
     beside = (HOLE - level * body.size - (turned @ side).max()) * side
     start, travel = beside + [0, 0, 1.0], np.array([0.0, 0.0, -2.0])

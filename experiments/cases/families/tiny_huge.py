@@ -1,7 +1,9 @@
-"""A tiny body at a feature of a huge one, a tenth of the tiny one's size away from it or inside it."""
+"""A tiny body at a feature of a huge one, a tenth of the tiny one's size away from it or
+inside it.
+"""
 
-from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.placement import seat
+from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex, scaled
 
 

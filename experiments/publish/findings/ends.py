@@ -9,10 +9,9 @@ import numpy as np
 import pandas as pd
 
 import ofg
-from ofg import Body, Query
-
 from experiments.run.folder.rows import cases_of
 from experiments.run.folder.store import Store
+from ofg import Body, Query
 
 CLOSE = 1e-9  # of the size of the faces: what rounding may open between two that meet
 COLUMNS = ["case", "scenario", "hit", "found", "meet", "late"]
@@ -59,12 +58,14 @@ def touch(a: np.ndarray, b: np.ndarray) -> bool:
     a, b = (a - a[0]) / size, (b - a[0]) / size
     edges_a, edges_b = np.roll(a, -1, 0) - a, np.roll(b, -1, 0) - b
     normals = np.cross(edges_a[:2], edges_a[1:])[:1], np.cross(edges_b[:2], edges_b[1:])[:1]
-    axes = np.vstack([
-        *normals,
-        np.cross(edges_a[:, None], edges_b[None]).reshape(-1, 3),
-        np.cross(normals[0], edges_a),
-        np.cross(normals[1], edges_b),
-    ])
+    axes = np.vstack(
+        [
+            *normals,
+            np.cross(edges_a[:, None], edges_b[None]).reshape(-1, 3),
+            np.cross(normals[0], edges_a),
+            np.cross(normals[1], edges_b),
+        ]
+    )
     length = np.linalg.norm(axes, axis=1)
     axes = axes[length > CLOSE] / length[length > CLOSE, None]
     on_a, on_b = a @ axes.T, b @ axes.T

@@ -1,16 +1,30 @@
-"""A section for each engine: misses and false alarms of its methods over all families, and a line from each experiment."""
+"""A section for each engine: misses and false alarms of its methods over all families, and a line
+from each experiment.
+"""
 
 from __future__ import annotations
 
 from collections import Counter
-from typing import Callable
+from collections.abc import Callable
 
 import pandas as pd
 
 from baselines import registry
-
 from experiments.analysis import metrics
-from .runs import Missing, Rate, Runs, grid, interval, listed, or_reason, rate, ratio, rows, wrong_rate
+
+from .runs import (
+    Missing,
+    Rate,
+    Runs,
+    grid,
+    interval,
+    listed,
+    or_reason,
+    rate,
+    ratio,
+    rows,
+    wrong_rate,
+)
 
 ENGINES = {  # heading -> distributions; sampled methods stand under a heading of their own
     "FCL": ("python-fcl",),
@@ -30,7 +44,9 @@ QUESTIONS = ("overlap", "translation", "motion")
 
 
 def engine_of(label: str) -> str:
-    """The heading of a method, or of a contestant of the stepping track, which is called like its engine or its method."""
+    """The heading of a method, or of a contestant of the stepping track, which is called like its
+    engine or its method.
+    """
     name = label.split()[0]
     known = registry.methods().get(name)
     if known is None or " " in label and name in SIMULATORS:
@@ -41,11 +57,18 @@ def engine_of(label: str) -> str:
 
 
 def board(found: pd.DataFrame, heading: str) -> list[dict]:
-    """A row per method of an engine: misses, false alarms, the family with the largest share of wrong answers, failures."""
-    found = found[found.method.map({m: engine_of(m) == heading for m in found.method.unique()}).astype(bool)]
+    """A row per method of an engine: misses, false alarms, the family with the largest share of
+    wrong answers, failures.
+    """
+    found = found[
+        found.method.map({m: engine_of(m) == heading for m in found.method.unique()}).astype(bool)
+    ]
     if found.empty:
         return []
-    counts, made = metrics.rates(found, ["method", "question"]).set_index(["method", "question"]), []
+    counts, made = (
+        metrics.rates(found, ["method", "question"]).set_index(["method", "question"]),
+        [],
+    )
     judged = found[found.outcome.isin(metrics.JUDGED)]
     wrong = (
         judged.outcome.isin(["miss", "false alarm"])
@@ -56,14 +79,22 @@ def board(found: pd.DataFrame, heading: str) -> list[dict]:
         row = {"method": method, "configuration": configuration_of(method)}
         for question in (q for q in QUESTIONS if (method, q) in counts.index):
             c = counts.loc[(method, question)]
-            row[f"{question}, missed"] = str(Rate(int(c.misses), int(c.hits), c.miss_low, c.miss_high)) if c.hits else "-"
+            row[f"{question}, missed"] = (
+                str(Rate(int(c.misses), int(c.hits), c.miss_low, c.miss_high)) if c.hits else "-"
+            )
             row[f"{question}, false"] = (
-                str(Rate(int(c.false_alarms), int(c.clears), c.alarm_low, c.alarm_high)) if c.clears else "-"
+                str(Rate(int(c.false_alarms), int(c.clears), c.alarm_low, c.alarm_high))
+                if c.clears
+                else "-"
             )
         if method not in wrong.index.get_level_values(0):
             continue
-        worst = wrong.loc[method].sort_values(["mean", "size"], ascending=False, kind="stable").iloc[0]
-        row["worst family"] = f"{worst.name} {worst['sum']:.0f}/{worst['size']:.0f}" if worst["sum"] else "none"
+        worst = (
+            wrong.loc[method].sort_values(["mean", "size"], ascending=False, kind="stable").iloc[0]
+        )
+        row["worst family"] = (
+            f"{worst.name} {worst['sum']:.0f}/{worst['size']:.0f}" if worst["sum"] else "none"
+        )
         mine = counts.loc[method].query("answered > 0 or failed > 0")
         row["beyond its tolerance"] = f"{mine.beyond.sum()}/{mine.judged.sum()}"
         row["answered"] = f"{mine.answered.sum()}/{mine.asked.sum()}"
@@ -84,7 +115,9 @@ def gap(runs: Runs, of: Callable) -> dict:
     for method in of(found):
         part = rows(found, method=method)
         bad = part[part.outcome.isin(["miss", "false alarm"])]
-        said[method] = f"{wrong_rate(part)}" + (f", up to |gap|/size {bad.level.abs().max():.0e}" if len(bad) else "")
+        said[method] = f"{wrong_rate(part)}" + (
+            f", up to |gap|/size {bad.level.abs().max():.0e}" if len(bad) else ""
+        )
     return said
 
 
@@ -101,7 +134,10 @@ def turns(runs: Runs, of: Callable) -> dict:
 def impact(runs: Runs, of: Callable) -> dict:
     found = runs.answers("impact")
     errors = metrics.times_of_impact(found[found.method.isin(of(found))], ["method"])
-    form = "median {e.median:.1e}, 95 % {e.p95:.1e}, latest {e.worst_late:.1e}, earliest {e.worst_early:.1e}, n={e.times}"
+    form = (
+        "median {e.median:.1e}, 95 % {e.p95:.1e}, latest {e.worst_late:.1e}, earliest"
+        " {e.worst_early:.1e}, n={e.times}"
+    )
     return {e.method: form.format(e=e) for e in errors.itertuples()}
 
 
@@ -109,20 +145,32 @@ def native(runs: Runs, of: Callable) -> dict:
     found = rows(runs.file("native/native.csv"), situation="apart")
     wide = found.pivot(index="method", columns="faces", values="native")
     over = wide / rows(found, method=OURS).set_index("faces").native
-    return {m: ", ".join(f"{faces} faces {v:.2f}" for faces, v in over.loc[m].items()) for m in of(found) if m != OURS}
+    return {
+        m: ", ".join(f"{faces} faces {v:.2f}" for faces, v in over.loc[m].items())
+        for m in of(found)
+        if m != OURS
+    }
 
 
 def python(runs: Runs, of: Callable) -> dict:
     times = runs.times("faces")
     each = {m: ratio(times, m, OURS, "level") for m in of(times) if m != OURS}
-    return {m: ", ".join(f"{level:g} faces {interval(r)}" for level, r in found.iterrows()) for m, found in each.items()}
+    return {
+        m: ", ".join(f"{level:g} faces {interval(r)}" for level, r in found.iterrows())
+        for m, found in each.items()
+    }
 
 
 def simulator(runs: Runs, of: Callable) -> dict:
-    """Worlds of the stepping track; kinematic loops around a method stand with the method's engine."""
+    """Worlds of the stepping track; kinematic loops around a method stand with the method's
+    engine.
+    """
     found = runs.file("stepping/stepping.parquet").dropna(subset=["tunnelled"])
     counts = found.groupby("contestant", sort=False)[["tunnelled", "runs"]].sum()
-    each = {r.Index: Rate(int(r.tunnelled), int(r.runs), *metrics.wilson(r.tunnelled, r.runs)) for r in counts.itertuples()}
+    each = {
+        r.Index: Rate(int(r.tunnelled), int(r.runs), *metrics.wilson(r.tunnelled, r.runs))
+        for r in counts.itertuples()
+    }
     return {name: each[name] for name in of(found.rename(columns={"contestant": "method"}))}
 
 
@@ -146,7 +194,10 @@ LINES = (  # what a line is about; the table; what it says of an engine's method
     ),
     (f"Time over that of {OURS}, native, pairs apart", "native/native.md", native),
     (
-        f"Net time over that of {OURS}, from Python, 0 where it is not above the method's own floor",
+        (
+            f"Net time over that of {OURS}, from Python, 0 where it is not above the method's own"
+            " floor"
+        ),
         "faces/tables/faces-ratio.md",
         python,
     ),
@@ -156,13 +207,22 @@ LINES = (  # what a line is about; the table; what it says of an engine's method
 
 
 def lines(runs: Runs, heading: str) -> list[str]:
-    """What the single experiments say of an engine's methods; those that are not there say so, those without it say nothing."""
+    """What the single experiments say of an engine's methods; those that are not there say so,
+    those without it say nothing.
+    """
 
     def of(frame: pd.DataFrame) -> list[str]:
         return [m for m in frame.method.unique() if engine_of(m) == heading]
 
-    said = [(title, path, or_reason(lambda say: listed(say(runs, of)), say)) for title, path, say in LINES]
-    return [f"- {title}{f' ({runs.link(path)})' if path else ''}: {text}." for title, path, text in said if text]
+    said = [
+        (title, path, or_reason(lambda say: listed(say(runs, of)), say))
+        for title, path, say in LINES
+    ]
+    return [
+        f"- {title}{f' ({runs.link(path)})' if path else ''}: {text}."
+        for title, path, text in said
+        if text
+    ]
 
 
 def sections(runs: Runs) -> list[str]:
@@ -172,10 +232,11 @@ def sections(runs: Runs) -> list[str]:
     except Missing as reason:
         return [f"not measured ({reason})"]
     parts = [
-        f"Misses and false alarms in the run {runs.link(runs.board)}, pooled over all its families as it weights them: families"
-        " are aimed at difficulties, so these are not rates of everyday use. Worst family: the largest share wrong, misses and"
-        " false alarms. Beyond its tolerance: wrong by more than the"
-        " method's documentation allows. Answered: of the cases of the questions that it takes; the rest are bodies that it does not take, or failed:"
+        f"Misses and false alarms in the run {runs.link(runs.board)}, pooled over all its families"
+        " as it weights them: families are aimed at difficulties, so these are not rates of"
+        " everyday use. Worst family: the largest share wrong, misses and false alarms. Beyond its"
+        " tolerance: wrong by more than the method's documentation allows. Answered: of the cases"
+        " of the questions that it takes; the rest are bodies that it does not take, or failed:"
         " crashes and timeouts."
     ]
     for heading in (*ENGINES, SAMPLING):

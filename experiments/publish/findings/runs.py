@@ -1,19 +1,22 @@
-"""The runs of a folder, and the numbers that are taken from their rows: by metrics, never counted in a second way."""
+"""The runs of a folder, and the numbers that are taken from their rows: by metrics, never counted
+in a second way.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Callable
 
 import numpy as np
 import pandas as pd
 
 from experiments.analysis import metrics
-from experiments.studies import sizes
 from experiments.analysis.tables import tables
 from experiments.run.folder.store import Store, StoreError
+from experiments.studies import sizes
+
 from . import ends
 
 MISSES = 0.05  # a rate of misses is small if its whole interval lies under this, large if above
@@ -27,7 +30,9 @@ class Missing(Exception):
 
 
 class Runs:
-    """The runs in a folder of results, read when they are first asked for. Every method raises Missing where there is none."""
+    """The runs in a folder of results, read when they are first asked for. Every method raises
+    Missing where there is none.
+    """
 
     def __init__(self, folder):
         self.folder = Path(folder)
@@ -40,7 +45,10 @@ class Runs:
     def times(self, run: str) -> pd.DataFrame:
         """metrics.case_costs of a run, with the scenario and level of each case."""
         cases = lambda: self.answers(run)[["case", "scenario", "level"]].drop_duplicates()  # noqa: E731
-        return self._once(("times", run), lambda: metrics.case_costs(Store(self.folder / run)).merge(cases(), on="case"))
+        return self._once(
+            ("times", run),
+            lambda: metrics.case_costs(Store(self.folder / run)).merge(cases(), on="case"),
+        )
 
     def bodies(self, run: str) -> pd.Series:
         """What the two bodies of each case are: "convex and mesh", by case."""
@@ -51,21 +59,32 @@ class Runs:
         return self._once(("known", run), lambda: ends.known(Store(self.folder / run)))
 
     def file(self, name: str) -> pd.DataFrame:
-        """A frame of the folder: sizes/sizes.parquet, native/native.csv, stepping/stepping.parquet."""
+        """A frame of the folder: sizes/sizes.parquet, native/native.csv,
+        stepping/stepping.parquet.
+        """
         read = pd.read_csv if name.endswith(".csv") else pd.read_parquet
         return self._once(("file", name), lambda: read(self.folder / name))
 
     @cached_property
     def board(self) -> str:
         """The run with every family: standard, or quick where there is no standard."""
-        return next((run for run in ("standard", "quick") if (self.folder / run / "observations.parquet").exists()), "standard")
+        return next(
+            (
+                run
+                for run in ("standard", "quick")
+                if (self.folder / run / "observations.parquet").exists()
+            ),
+            "standard",
+        )
 
     @cached_property
     def finished(self) -> list[str]:
         return sorted(p.parent.name for p in self.folder.glob("*/observations.parquet"))
 
     def link(self, path: str, name: str = "") -> str:
-        """A link to a file of the folder, called like the file if no name is given; the name alone where there is no file."""
+        """A link to a file of the folder, called like the file if no name is given; the name alone
+        where there is no file.
+        """
         name = name or Path(path).stem
         return f"[{name}]({path})" if (self.folder / path).exists() else name
 
@@ -80,7 +99,9 @@ class Runs:
             except (StoreError, FileNotFoundError):
                 run = key[1].split("/")[0]
                 raise Missing(
-                    f"run {run} is missing" if not (self.folder / run).exists() else f"run {run} is not finished, or has no times"
+                    f"run {run} is missing"
+                    if not (self.folder / run).exists()
+                    else f"run {run} is not finished, or has no times"
                 ) from None
         return self._read[key]
 
@@ -119,7 +140,9 @@ def overall(verdicts) -> str:
 
 
 def rows(frame: pd.DataFrame, **wanted) -> pd.DataFrame:
-    """The rows whose columns have the wanted value, or one of several. Missing if there are none."""
+    """The rows whose columns have the wanted value, or one of several. Missing if there are
+    none.
+    """
     for column, value in wanted.items():
         frame = frame[frame[column].isin(value if isinstance(value, (list, tuple)) else [value])]
     if frame.empty:
@@ -128,13 +151,17 @@ def rows(frame: pd.DataFrame, **wanted) -> pd.DataFrame:
 
 
 def rate(frame: pd.DataFrame, kind: str = "misses", **wanted) -> Rate:
-    """Misses, false alarms or tunnelled of the certified cases answered, by metrics.rates. Missing if there is no such case."""
+    """Misses, false alarms or tunnelled of the certified cases answered, by metrics.rates. Missing
+    if there is no such case.
+    """
     count, total, interval, _ = tables.COUNTS[kind]
     part = rows(frame, **wanted)
     found = metrics.rates(part.assign(all=0), ["all"]).iloc[0]
     if not found[total]:
         raise Missing(f"no certified {total} among {len(part)} rows")
-    return Rate(int(found[count]), int(found[total]), found[f"{interval}_low"], found[f"{interval}_high"])
+    return Rate(
+        int(found[count]), int(found[total]), found[f"{interval}_low"], found[f"{interval}_high"]
+    )
 
 
 def size_rates(runs: Runs, depth: str, k: int) -> dict[int, Rate]:
@@ -162,8 +189,9 @@ def ratio(times: pd.DataFrame, method: str, reference: str, by) -> pd.DataFrame:
 
 
 def or_reason(find: Callable, *given, **named) -> str:
-    """What find(*given, **named) says, or why it cannot be said: for what stands beside a verdict and
-    does not decide it."""
+    """What find(*given, **named) says, or why it cannot be said: for what stands beside a verdict
+    and does not decide it.
+    """
     try:
         return str(find(*given, **named))
     except Missing as reason:
@@ -171,22 +199,32 @@ def or_reason(find: Callable, *given, **named) -> str:
 
 
 def ratios_listed(times: Callable[[], pd.DataFrame], method: str, reference: str, by: str) -> str:
-    return or_reason(lambda: listed((key, times_more(r)) for key, r in ratio(times(), method, reference, by).iterrows()))
+    return or_reason(
+        lambda: listed(
+            (key, times_more(r)) for key, r in ratio(times(), method, reference, by).iterrows()
+        )
+    )
 
 
 def listed(values, form: Callable = str) -> str:
     return "; ".join(
-        f"{key:g}: {form(value)}" if isinstance(key, (int, float, np.number)) else f"{key}: {form(value)}"
+        (
+            f"{key:g}: {form(value)}"
+            if isinstance(key, (int, float, np.number))
+            else f"{key}: {form(value)}"
+        )
         for key, value in dict(values).items()
     )
 
 
 def spread(rates: dict) -> str:
     """The lowest and the highest of several rates, with what they are of."""
-    named = {f"{key} faces" if isinstance(key, (int, np.integer)) else key: r for key, r in rates.items()}
-    low, *_, high = sorted(named, key=lambda key: (named[key].count / named[key].total, named[key].total)) * (
-        2 if len(named) == 1 else 1
-    )
+    named = {
+        f"{key} faces" if isinstance(key, (int, np.integer)) else key: r for key, r in rates.items()
+    }
+    low, *_, high = sorted(
+        named, key=lambda key: (named[key].count / named[key].total, named[key].total)
+    ) * (2 if len(named) == 1 else 1)
     return f"{low} {named[low]}" if low == high else f"{low} {named[low]} to {high} {named[high]}"
 
 
@@ -234,6 +272,14 @@ def wrong_rate(part: pd.DataFrame) -> Rate:
 
 def grid(made: list[dict]) -> str:
     """A Markdown table; the columns in which any row has something."""
-    columns = [c for c in dict.fromkeys(c for row in made for c in row) if any(row.get(c, "-") != "-" for row in made)]
-    lines = [columns, ["---"] * len(columns), *([row.get(c, "-").replace("|", "\\|") for c in columns] for row in made)]
+    columns = [
+        c
+        for c in dict.fromkeys(c for row in made for c in row)
+        if any(row.get(c, "-") != "-" for row in made)
+    ]
+    lines = [
+        columns,
+        ["---"] * len(columns),
+        *([row.get(c, "-").replace("|", "\\|") for c in columns] for row in made),
+    ]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)

@@ -1,7 +1,8 @@
-"""Draws one case of each family: python -m experiments.publish.gallery.draw experiments/cases/families/figures
+"""Draws one case of each family: python -m experiments.publish.gallery.draw
+experiments/cases/families/figures
 
-A is blue, B orange (a pair that colour-blind readers tell apart). A moving A is solid at the start, pale later; a straight
-arrow is its displacement, a curved one its turn.
+A is blue, B orange (a pair that colour-blind readers tell apart). A moving A is solid at the start,
+pale later; a straight arrow is its displacement, a curved one its turn.
 """
 
 from __future__ import annotations
@@ -18,9 +19,8 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from experiments.cases.case import Case
-from ofg import Body, Motion, Pose
-
 from experiments.cases.families import scenarios
+from ofg import Body, Motion, Pose
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # noqa: E402  (the backend comes first)
@@ -31,8 +31,9 @@ PANEL, DPI, FINE = (2.6, 2.2), 110, 3  # inches, dots per inch, rendered dots pe
 
 @dataclass(frozen=True)
 class View:
-    """Which case shows a family best: its level, the tags it must have, the direction it is seen from, and how the second
-    panel magnifies the contact (0: no second panel)."""
+    """Which case shows a family best: its level, the tags it must have, the direction it is seen
+    from, and how the second panel magnifies the contact (0: no second panel).
+    """
 
     level: float
     tags: dict = field(default_factory=dict)
@@ -75,12 +76,16 @@ VIEWS = {
     "thin_pair": View(20.0, {"place": "through", "kind": "plate"}, (2.2, -0.7, 0.5)),
     "thin_wall": View(10.0, {"place": "through"}, (2.2, -0.7, 0.5)),
     "through_hole": View(0.1, {"mover": "body"}, (2.0, -1.0, 1.2)),
-    "tiny_huge": View(100.0, {"unit": "huge", "feature": "vertex-face"}, (1.0, -2.2, 0.4), zoom=40.0),
+    "tiny_huge": View(
+        100.0, {"unit": "huge", "feature": "vertex-face"}, (1.0, -2.2, 0.4), zoom=40.0
+    ),
 }
 
 
 def pictured(name: str) -> Case:
-    """The first case of the family that fits its view; axis-aligned ones where the family has them, which are easier to read."""
+    """The first case of the family that fits its view; axis-aligned ones where the family has them,
+    which are easier to read.
+    """
     scenario, view = scenarios()[name], VIEWS.get(name, View(scenarios()[name].levels[0]))
     fits, aligned = [], []
     for index in range(300):
@@ -90,8 +95,10 @@ def pictured(name: str) -> Case:
         if len(aligned) > view.which:
             return aligned[view.which]
     if len(aligned + fits) <= view.which:
-        raise ValueError(f"Scenario '{name}': too few of 300 cases at level {view.level:g} have the tags {view.tags} of its view in "
-                         "draw.py; correct the view.")
+        raise ValueError(
+            f"Scenario '{name}': too few of 300 cases at level {view.level:g} have the tags"
+            f" {view.tags} of its view in draw.py; correct the view."
+        )
     return (aligned + fits)[view.which]
 
 
@@ -116,7 +123,9 @@ def draw(name: str, path: Path) -> None:
     plt.close(figure)
     note = PngInfo()
     note.add_text("case", caption(case))  # lets a test see that a picture is out of date
-    Image.open(buffer).convert("RGB").quantize(128, dither=Image.Dither.NONE).save(path, optimize=True, pnginfo=note)
+    Image.open(buffer).convert("RGB").quantize(128, dither=Image.Dither.NONE).save(
+        path, optimize=True, pnginfo=note
+    )
 
 
 def _panel(ax, case: Case, screen: np.ndarray, zoom: float) -> None:
@@ -124,13 +133,19 @@ def _panel(ax, case: Case, screen: np.ndarray, zoom: float) -> None:
     sides = ((q.b, q.pose_b, q.motion_b, ORANGE), (q.a, q.pose_a, q.motion, BLUE))
     movers = [side for side in sides if not side[2].rests]
 
-    def place(body: Body, pose: Pose) -> np.ndarray:  # relative to B, which may be far from the origin
-        return Pose(pose.quaternion, pose.position - q.pose_b.position).apply(body.vertices) @ screen.T
+    def place(
+        body: Body, pose: Pose
+    ) -> np.ndarray:  # relative to B, which may be far from the origin
+        return (
+            Pose(pose.quaternion, pose.position - q.pose_b.position).apply(body.vertices) @ screen.T
+        )
 
     bodies = [(body, place(body, pose), colour) for body, pose, _, colour in sides]
-    ghosts = [(body, place(body, motion.pose_at(pose, t)), colour)
-              for body, pose, motion, colour in movers
-              for t in np.linspace(0, 1, 9 if motion.angle > 1 else 5)[1:]]
+    ghosts = [
+        (body, place(body, motion.pose_at(pose, t)), colour)
+        for body, pose, motion, colour in movers
+        for t in np.linspace(0, 1, 9 if motion.angle > 1 else 5)[1:]
+    ]
     tracks = []  # of each mover: where its arrow begins, and its arc
     for body, pose, motion, _ in movers:
         start = screen @ (pose.apply(motion.about[None])[0] - q.pose_b.position)
@@ -144,15 +159,26 @@ def _panel(ax, case: Case, screen: np.ndarray, zoom: float) -> None:
         middle, half = bodies[1][1][:, :2].mean(axis=0), half / zoom
     corner, step = middle - half, 2 * half[0] / (PANEL[0] * DPI * FINE)
     image = _render(bodies, ghosts, corner, step)
-    ax.imshow(image, origin="lower", extent=np.stack([middle - half, middle + half], axis=1).ravel(), interpolation="antialiased")
+    ax.imshow(
+        image,
+        origin="lower",
+        extent=np.stack([middle - half, middle + half], axis=1).ravel(),
+        interpolation="antialiased",
+    )
     for motion, start, arc in tracks:
         _arrows(ax, motion, start, arc, screen)
-    ax.set(xlim=middle[0] + half[0] * np.array([-1, 1]), ylim=middle[1] + half[1] * np.array([-1, 1]), aspect="equal")
+    ax.set(
+        xlim=middle[0] + half[0] * np.array([-1, 1]),
+        ylim=middle[1] + half[1] * np.array([-1, 1]),
+        aspect="equal",
+    )
     ax.axis("off")
 
 
 def _render(bodies: list, ghosts: list, corner: np.ndarray, step: float) -> np.ndarray:
-    """A picture (rows from the bottom, columns, rgb) by depth buffer; what is hidden shines through a little."""
+    """A picture (rows from the bottom, columns, rgb) by depth buffer; what is hidden shines through
+    a little.
+    """
     shape = (int(PANEL[1] * DPI * FINE), int(PANEL[0] * DPI * FINE))
     layers = [_layer(*each, corner, step, shape) for each in bodies]
     depth = np.stack([d for d, _ in layers])
@@ -168,25 +194,36 @@ def _render(bodies: list, ghosts: list, corner: np.ndarray, step: float) -> np.n
     return picture
 
 
-def _layer(body: Body, v: np.ndarray, colour: str, corner, step: float, shape) -> tuple[np.ndarray, np.ndarray]:
-    """Depth (-inf where there is nothing) and colour of one body; `v` its vertices on the screen, depth last."""
+def _layer(
+    body: Body, v: np.ndarray, colour: str, corner, step: float, shape
+) -> tuple[np.ndarray, np.ndarray]:
+    """Depth (-inf where there is nothing) and colour of one body; `v` its vertices on the screen,
+    depth last.
+    """
     depth, picture = np.full(shape, -np.inf), np.zeros((*shape, 3))
     rgb = np.array(matplotlib.colors.to_rgb(colour))
     v = np.column_stack([(v[:, :2] - corner) / step, v[:, 2] / step])
     mesh = trimesh.Trimesh(v, body.faces, process=False)
-    for triangle, normal in zip(mesh.triangles, np.cross(*np.diff(mesh.triangles, axis=1).transpose(1, 0, 2))):
+    for triangle, normal in zip(
+        mesh.triangles, np.cross(*np.diff(mesh.triangles, axis=1).transpose(1, 0, 2))
+    ):
         if normal[2] > 1e-9:
-            light = 0.66 + 0.34 * np.clip(normal / np.linalg.norm(normal) @ [-0.4, 0.6, 0.7], -0.6, 1)
+            light = 0.66 + 0.34 * np.clip(
+                normal / np.linalg.norm(normal) @ [-0.4, 0.6, 0.7], -0.6, 1
+            )
             _fill(triangle, normal, rgb * light, depth, picture)
     sharp = mesh.face_adjacency_angles > (0.12 if len(body.faces) < 400 else 0.35)
     for edge in mesh.face_adjacency_edges[sharp]:
         ends = v[edge]
-        points = np.linspace(*ends, 2 + int(min(4000, 2 * np.abs(np.diff(ends[:, :2], axis=0)).max())))
+        points = np.linspace(
+            *ends, 2 + int(min(4000, 2 * np.abs(np.diff(ends[:, :2], axis=0)).max()))
+        )
         for dx, dy in ((0, 0), (1, 0), (0, 1), (1, 1)):
             column, row = (points[:, :2].astype(int) + (dx, dy)).T
             inside = (row >= 0) & (row < shape[0]) & (column >= 0) & (column < shape[1])
             row, column, z = row[inside], column[inside], points[inside, 2]
-            seen = z > depth[row, column] - 3.0  # in front of its own faces, which are slanted across a pixel
+            # in front of its own faces, which are slanted across a pixel
+            seen = z > depth[row, column] - 3.0
             picture[row[seen], column[seen]] = 0.35 * rgb
             depth[row[seen], column[seen]] = np.maximum(depth[row[seen], column[seen]], z[seen])
     return depth, picture
@@ -201,8 +238,11 @@ def _fill(triangle, normal, colour, depth, picture) -> None:
     inside = np.ones(x.shape, bool)
     for p, q in zip(triangle, np.roll(triangle, -1, axis=0)):
         inside &= (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]) >= 0
-    z = triangle[0, 2] - (normal[0] * (x - triangle[0, 0]) + normal[1] * (y - triangle[0, 1])) / normal[2]
-    window = np.s_[low[1]:high[1], low[0]:high[0]]
+    z = (
+        triangle[0, 2]
+        - (normal[0] * (x - triangle[0, 0]) + normal[1] * (y - triangle[0, 1])) / normal[2]
+    )
+    window = np.s_[low[1] : high[1], low[0] : high[0]]
     inside &= z > depth[window]
     depth[window][inside] = z[inside]
     picture[window][inside] = colour
@@ -220,7 +260,9 @@ def _arc(motion: Motion, radius: float) -> np.ndarray:
 def _arrows(ax, motion: Motion, start: np.ndarray, arc: np.ndarray, screen: np.ndarray) -> None:
     style = dict(arrowstyle="-|>", color=INK, linewidth=1.1, shrinkA=0, shrinkB=0, mutation_scale=9)
     if motion.displacement.any():
-        ax.annotate("", (start + screen @ motion.displacement)[:2], start[:2], arrowprops=style, zorder=5)
+        ax.annotate(
+            "", (start + screen @ motion.displacement)[:2], start[:2], arrowprops=style, zorder=5
+        )
     if motion.angle:
         ax.plot(arc[:-3, 0], arc[:-3, 1], color=INK, linewidth=1.1, zorder=5)
         ax.annotate("", arc[-1, :2], arc[-4, :2], arrowprops=style, zorder=5)

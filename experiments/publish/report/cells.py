@@ -9,12 +9,11 @@ import json
 
 import pandas as pd
 
-from ofg import QUESTIONS
-
-from experiments.run import piece_truth
 from experiments.analysis.outcome import JUDGED
 from experiments.analysis.tables.table import unmarked
+from experiments.run import piece_truth
 from experiments.run.timing import SIZES
+from ofg import QUESTIONS
 
 #: column of a table -> kind of the rows that it counts
 COLUMNS = {
@@ -56,8 +55,9 @@ UNLINKED = ("common-", "ranks-")
 def links(table, found: pd.DataFrame) -> list[list[dict | None]]:
     """A link, or None, for each cell of table.text.
 
-    Keys of a link, all optional: method, question, scenario, level, band, sizes, situation, label; scenarios, levels (any of
-    them); tag ([name, values], any of them); detail (its beginning); kind (see `kinds`).
+    Keys of a link, all optional: method, question, scenario, level, band, sizes, situation, label;
+    scenarios, levels (any of them); tag ([name, values], any of them); detail (its beginning); kind
+    (see `kinds`).
     """
     if table.choice:
         return _chosen(table, found)
@@ -75,12 +75,19 @@ def links(table, found: pd.DataFrame) -> list[list[dict | None]]:
         place["scenarios"] = [n for n in scenarios if f" {n}" in table.caption]
     made = []
     for row in text.to_dict("records"):
-        made.append([_link(table.name, str(column), str(value), row, place, scenarios, bands) for column, value in row.items()])
+        made.append(
+            [
+                _link(table.name, str(column), str(value), row, place, scenarios, bands)
+                for column, value in row.items()
+            ]
+        )
     return made
 
 
 def _chosen(table, found: pd.DataFrame) -> list[list[dict | None]]:
-    """Links of a table that an experiment asked for: a row per method, a column per value of its choice."""
+    """Links of a table that an experiment asked for: a row per method, a column per value of its
+    choice.
+    """
     choice = table.choice
     place = {
         "kind": VALUES[choice.value],
@@ -88,12 +95,19 @@ def _chosen(table, found: pd.DataFrame) -> list[list[dict | None]]:
         **({"situation": choice.situation} if choice.situation else {}),
         **({"scenarios": list(choice.scenarios)} if choice.scenarios else {}),
     }
-    columns = {str(column): _values(choice.columns, str(column), found) for column in table.text.columns[1:]}
+    columns = {
+        str(column): _values(choice.columns, str(column), found)
+        for column in table.text.columns[1:]
+    }
     return [
         [
             None,
             *(
-                {"method": row[0], **place, **columns[str(c)]} if value != "-" and columns[str(c)] and row[0] != piece_truth.NAME else None
+                (
+                    {"method": row[0], **place, **columns[str(c)]}
+                    if value != "-" and columns[str(c)] and row[0] != piece_truth.NAME
+                    else None
+                )
                 for c, value in zip(table.text.columns[1:], row[1:])
             ),
         ]
@@ -102,7 +116,9 @@ def _chosen(table, found: pd.DataFrame) -> list[list[dict | None]]:
 
 
 def _values(name: str, column: str, found: pd.DataFrame) -> dict | None:
-    """The condition that a column of such a table stands for; tables.py prints numbers with six digits."""
+    """The condition that a column of such a table stands for; tables.py prints numbers with six
+    digits.
+    """
     if name in ("scenario", "question", "situation", "band"):
         return {name: column}
     if name == "faces":
@@ -110,7 +126,14 @@ def _values(name: str, column: str, found: pd.DataFrame) -> dict | None:
     if name == "level":
         return {"levels": [v for v in sorted(found.level.unique()) if f"{v:g}" == column]}
     known = {json.loads(text).get(name) for text in found.tags.unique()} - {None}
-    return {"tag": [name, sorted(v for v in known if v == column or (not isinstance(v, str) and f"{v:g}" == column))]}
+    return {
+        "tag": [
+            name,
+            sorted(
+                v for v in known if v == column or (not isinstance(v, str) and f"{v:g}" == column)
+            ),
+        ]
+    }
 
 
 def _link(name, column, value, row, place, scenarios, bands) -> dict | None:
@@ -118,30 +141,44 @@ def _link(name, column, value, row, place, scenarios, bands) -> dict | None:
         return None
     if name == "truth":
         return (
-            {"scenario": row["scenario"], **({"label": LABELS[column]} if LABELS[column] else {})} if column in LABELS else None
+            {"scenario": row["scenario"], **({"label": LABELS[column]} if LABELS[column] else {})}
+            if column in LABELS
+            else None
         )
     if "method" not in row or column == "method" or row["method"] == piece_truth.NAME:
         return None
     link = {"method": unmarked(row["method"]), **place}
     if name == "unanswered":
-        return {**link, "kind": row["status"], "detail": row["detail"]} if column == "cases" else None
+        return (
+            {**link, "kind": row["status"], "detail": row["detail"]} if column == "cases" else None
+        )
     if name.startswith(("cost-", "ratio-")):
-        return {**link, "sizes": column, "kind": "clocked"} if column in {title for _, title in SIZES} else None
+        return (
+            {**link, "sizes": column, "kind": "clocked"}
+            if column in {title for _, title in SIZES}
+            else None
+        )
     if name.startswith("tunnelling"):
         return {**link, "level": float(column), "kind": "judged hit"}
     if "question" not in place:
         return None
     if name.startswith("touching"):
         return {**link, "kind": "touching"} if column == "answered" else None
-    if name.startswith("scenarios-") and column in scenarios:  # one of them is called "contained", as a column elsewhere
+    if (
+        name.startswith("scenarios-") and column in scenarios
+    ):  # one of them is called "contained", as a column elsewhere
         return {**link, "scenario": column, "kind": "judged"}
     if column in bands:
         return {**link, "band": column, "kind": "judged"}
     return {**link, "kind": COLUMNS[column]} if column in COLUMNS else None
 
 
-def select(found: pd.DataFrame, link: dict, clocked: set[tuple[str, str]] = frozenset()) -> pd.DataFrame:
-    """Rows of metrics.outcomes (with columns band, sizes, situation) behind a link. clocked: (method, case) that were timed."""
+def select(
+    found: pd.DataFrame, link: dict, clocked: set[tuple[str, str]] = frozenset()
+) -> pd.DataFrame:
+    """Rows of metrics.outcomes (with columns band, sizes, situation) behind a link. clocked:
+    (method, case) that were timed.
+    """
     keep = pd.Series(True, found.index)
     for key in ("method", "question", "scenario", "level", "band", "sizes", "situation", "label"):
         if key in link:
@@ -151,15 +188,19 @@ def select(found: pd.DataFrame, link: dict, clocked: set[tuple[str, str]] = froz
             keep &= found[column].isin(link[key])
     if "tag" in link:
         name, values = link["tag"]
-        keep &= found.tags.map({text: json.loads(text).get(name) in values for text in found.tags.unique()})
+        keep &= found.tags.map(
+            {text: json.loads(text).get(name) in values for text in found.tags.unique()}
+        )
     if "detail" in link:
         keep &= found.detail.fillna("").str.startswith(link["detail"])
     return found[keep & kinds(found, link.get("kind", "all"), clocked)]
 
 
 def kinds(found: pd.DataFrame, kind: str, clocked=frozenset()) -> pd.Series:
-    """An outcome; "tunnelled", "wrong", "within" or "beyond" the method's tolerance; what rates are over: "judged", "judged hit", "judged clear", "can tunnel", "asked",
-    "answered"; "timed" (has an error of its time), "late", "early"; "clocked" (timed by the clock); "all"."""
+    """An outcome; "tunnelled", "wrong", "within" or "beyond" the method's tolerance; what rates are
+    over: "judged", "judged hit", "judged clear", "can tunnel", "asked", "answered"; "timed" (has an
+    error of its time), "late", "early"; "clocked" (timed by the clock); "all".
+    """
     if kind == "all":
         return pd.Series(True, found.index)
     if kind in ("wrong", "within"):
@@ -185,7 +226,9 @@ def kinds(found: pd.DataFrame, kind: str, clocked=frozenset()) -> pd.Series:
     if kind == "tunnelled":
         return found.tunnelled
     if kind == "clocked":
-        return pd.Series([pair in clocked for pair in zip(found.method, found.case)], found.index, dtype=bool)
+        return pd.Series(
+            [pair in clocked for pair in zip(found.method, found.case)], found.index, dtype=bool
+        )
     return found.outcome == kind
 
 

@@ -1,10 +1,13 @@
-"""What of a certificate can be drawn: its planes with the elements and the time each is for, and its common point."""
+"""What of a certificate can be drawn: its planes with the elements and the time each is for, and
+its common point.
+"""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any, Mapping
+from typing import Any
 
 RATIONAL = re.compile(r"-?[0-9]{1,4000}(/[0-9]{1,4000})?")
 MOST_PLANES = 4000  # of one case; a proof about two large meshes has more than anyone can look at
@@ -13,11 +16,12 @@ MOST_PLANES = 4000  # of one case; a proof about two large meshes has more than 
 def drawable(certificate: Mapping[str, Any], most: int = MOST_PLANES) -> dict:
     """The parts of a certificate (experiments/truth/README.md) with rationals rounded to doubles.
 
-    "clear", "end_clear": {"planes": n, "leaves": [[s, e, frame, nx, ny, nz, a_from, a_to, b_from, b_to], ...], "order_a",
-    "order_b"}: over [s, e] the normal n, fixed in the world (frame "W") or turning with A ("A"), points from the elements
-    order_a[a_from:a_to] of A to order_b[b_from:b_to] of B and separates them. An order is left out where it is 0, 1, 2, ...;
-    the leaves where there are more than `most`.
-    "hit", "end_hit": {"point": [x, y, z]} in the world. Of a certificate that cannot be read nothing.
+    "clear", "end_clear": {"planes": n, "leaves": [[s, e, frame, nx, ny, nz, a_from, a_to, b_from,
+    b_to], ...], "order_a", "order_b"}: over [s, e] the normal n, fixed in the world (frame "W") or
+    turning with A ("A"), points from the elements order_a[a_from:a_to] of A to order_b[b_from:b_to]
+    of B and separates them. An order is left out where it is 0, 1, 2, ...; the leaves where there
+    are more than `most`. "hit", "end_hit": {"point": [x, y, z]} in the world. Of a certificate that
+    cannot be read nothing.
     """
     try:
         return _drawable(certificate, most)
@@ -54,11 +58,18 @@ def _planes(proof: Mapping[str, Any], start: float, most: int) -> dict:
     made: dict[str, Any] = {"planes": len(leaves)}
     if len(leaves) <= most:
         made["leaves"] = leaves
-        made.update({key: order for key, order in (("order_a", a), ("order_b", b)) if order and order != list(range(len(order)))})
+        made.update(
+            {
+                key: order
+                for key, order in (("order_a", a), ("order_b", b))
+                if order and order != list(range(len(order)))
+            }
+        )
     return made
 
 
 def _number(x) -> float:
     if isinstance(x, str) and not RATIONAL.fullmatch(x):
-        raise ValueError(f"{x[:40]} is no rational")  # a Fraction of "1e999999999" would fill the memory
+        # a Fraction of "1e999999999" would fill the memory
+        raise ValueError(f"{x[:40]} is no rational")
     return float(Fraction(x)) if isinstance(x, str) else float(x)

@@ -1,12 +1,13 @@
 """One case as a page of its own, from a run or from a file.
 
-The file (JSON): {"case": the row of cases.parquet, "bodies": its two rows of bodies.parquet (one where both are equal),
-"observations": rows of observations.parquet, may be missing, "pieces": its row of pieces.parquet in a list, may be missing:
-methods that decompose are then judged by the mesh}. A file written by hand needs of "case": question, body_a, body_b,
-and what is not at rest of quaternion_a, position_a, quaternion_b, position_b, displacement, axis, angle, about (of A's
-motion; with "_b" behind, of B's); of a body: body (any
-name), kind, vertices, faces (flat lists; a convex body needs no faces; a union piece_vertices and piece_faces). Where it has no
-label the case is certified anew.
+The file (JSON): {"case": the row of cases.parquet, "bodies": its two rows of bodies.parquet (one
+where both are equal), "observations": rows of observations.parquet, may be missing, "pieces": its
+row of pieces.parquet in a list, may be missing: methods that decompose are then judged by the
+mesh}. A file written by hand needs of "case": question, body_a, body_b, and what is not at rest of
+quaternion_a, position_a, quaternion_b, position_b, displacement, axis, angle, about (of A's motion;
+with "_b" behind, of B's); of a body: body (any name), kind, vertices, faces (flat lists; a convex
+body needs no faces; a union piece_vertices and piece_faces). Where it has no label the case is
+certified anew.
 """
 
 from __future__ import annotations
@@ -23,19 +24,17 @@ import numpy as np
 import pandas as pd
 
 from baselines import registry
-from ofg import Body, Motion, Pose, Query, readback
-
-from experiments.run import answering, piece_truth
-from experiments.run.folder import given, record
 from experiments.analysis import metrics
-from experiments.run.processes import pool
-from experiments.run.answering import COLUMNS
 from experiments.cases.case import Case
-from experiments.run.config import ConfigError, RunConfig, closest, load_files
-from experiments.run.folder.rows import body_of, body_row, case_row, cases_of, _certificate, tags_of
-from experiments.run.folder.store import Store, StoreError
 from experiments.cases.label import Truth
-
+from experiments.run import answering, piece_truth
+from experiments.run.answering import COLUMNS
+from experiments.run.config import ConfigError, RunConfig, closest, load_files
+from experiments.run.folder import given, record
+from experiments.run.folder.rows import _certificate, body_of, body_row, case_row, cases_of, tags_of
+from experiments.run.folder.store import Store, StoreError
+from experiments.run.processes import pool
+from ofg import Body, Motion, Pose, Query, readback
 
 WORST_FIRST = (
     "miss",
@@ -59,7 +58,9 @@ class Explained:
     row: dict
     said: pd.DataFrame
     refused: str = ""  #: why the checker does not accept the label
-    pieces: pd.DataFrame | None = None  #: its row of pieces.parquet, of a case of a run that has one
+    pieces: pd.DataFrame | None = (
+        None  #: its row of pieces.parquet, of a case of a run that has one
+    )
 
 
 def from_run(store: Store, name: str) -> Explained:
@@ -68,11 +69,14 @@ def from_run(store: Store, name: str) -> Explained:
     row = rows[rows.case == name]
     if row.empty:
         raise StoreError(
-            f"The run {store.folder} has no case '{name}'{closest(name, rows.case)}. A case is named scenario/level/index, as in the "
-            "gallery of its report.html and in cases.parquet."
+            f"The run {store.folder} has no case '{name}'{closest(name, rows.case)}. A case is"
+            " named scenario/level/index, as in the gallery of its report.html and in"
+            " cases.parquet."
         )
     bodies = store.read("bodies.parquet")
-    ((case, truth),) = cases_of(row, bodies[bodies.body.isin([row.body_a.iloc[0], row.body_b.iloc[0]])])
+    ((case, truth),) = cases_of(
+        row, bodies[bodies.body.isin([row.body_a.iloc[0], row.body_b.iloc[0]])]
+    )
     said = store.read("observations.parquet").query("case == @name").reset_index(drop=True)
     pieces = piece_truth.read(store)
     own = None if pieces is None or name not in set(pieces.case) else pieces[pieces.case == name]
@@ -121,7 +125,8 @@ def from_file(path: Path) -> Explained:
     """ConfigError where the file cannot be read, naming the field."""
     if not path.exists():
         raise ConfigError(
-            f"The case file {path} does not exist. Write one from a run with: ofg-bench explain CASE --run RUN --save {path}"
+            f"The case file {path} does not exist. Write one from a run with: ofg-bench explain"
+            f" CASE --run RUN --save {path}"
         )
     try:
         content = given.json_in(path, "The case file", given.MOST_CASE)
@@ -153,12 +158,21 @@ def from_file(path: Path) -> Explained:
         raise ConfigError(str(error)) from error
     except KeyError as error:
         raise ConfigError(
-            f'The case file {path} lacks the field {error}. It needs "case" and "bodies": see the head of experiments/publish/report/explain.py, or write one '
-            "from a run with: ofg-bench explain CASE --run RUN --save case.json"
+            f'The case file {path} lacks the field {error}. It needs "case" and "bodies": see the'
+            " head of experiments/publish/report/explain.py, or write one from a run with:"
+            " ofg-bench explain CASE --run RUN --save case.json"
         ) from error
-    except (TypeError, ValueError, AttributeError, IndexError, OverflowError, RecursionError) as error:
+    except (
+        TypeError,
+        ValueError,
+        AttributeError,
+        IndexError,
+        OverflowError,
+        RecursionError,
+    ) as error:
         raise ConfigError(
-            f"The case file {path} has a field of the wrong form ({given.reason(error)}). Compare it with one written by: ofg-bench explain CASE --run RUN --save case.json"
+            f"The case file {path} has a field of the wrong form ({given.reason(error)}). Compare"
+            " it with one written by: ofg-bench explain CASE --run RUN --save case.json"
         ) from error
     return Explained(case, truth, case_row(case, truth, 0), said, refusal(query, truth), pieces)
 
@@ -171,14 +185,20 @@ def save(explained: Explained, path: Path) -> None:
         {k: None if v is pd.NA or v != v else v for k, v in row.items()}
         for row in explained.said[COLUMNS].astype(object).to_dict("records")
     ]
-    content = {"case": _listed(explained.row), "bodies": list(bodies.values()), "observations": said}
+    content = {
+        "case": _listed(explained.row),
+        "bodies": list(bodies.values()),
+        "observations": said,
+    }
     if explained.pieces is not None:
         content["pieces"] = [_listed(row) for row in explained.pieces.to_dict("records")]
     path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n")
 
 
 def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
-    """What the methods of the configuration say now, each asked in a process of its own; their earlier answers are replaced."""
+    """What the methods of the configuration say now, each asked in a process of its own; their
+    earlier answers are replaced.
+    """
     load_files(config)
     rows: list[dict] = []
     tasks = []
@@ -187,8 +207,16 @@ def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
         def lost(case, loss, label=method.label):
             return answering._row(case, label, loss.status, detail=loss.detail)
 
-        tasks.append(pool.Task(answering._open, (method.label, config), [explained.case], rows.extend, lost))
-    pool.run(tasks, 2, config.build_seconds + config.query_seconds, log, prepare=partial(load_files, config))
+        tasks.append(
+            pool.Task(answering._open, (method.label, config), [explained.case], rows.extend, lost)
+        )
+    pool.run(
+        tasks,
+        2,
+        config.build_seconds + config.query_seconds,
+        log,
+        prepare=partial(load_files, config),
+    )
     order = {task.argument[0]: i for i, task in enumerate(tasks)}
     fresh = pd.DataFrame(sorted(rows, key=lambda r: order[r["method"]]), columns=COLUMNS)
     kept = explained.said[~explained.said.method.isin(fresh.method)]
@@ -216,7 +244,9 @@ def motion_words(motion: Motion) -> str:
     words = [f"moves by {numbers(motion.displacement)}"] if motion.displacement.any() else []
     if motion.angle:
         point = f" through its point {numbers(motion.about)}" if motion.about.any() else ""
-        words.append(f"turns by {motion.angle:.6g} rad about the axis {numbers(motion.axis)}{point}")
+        words.append(
+            f"turns by {motion.angle:.6g} rad about the axis {numbers(motion.axis)}{point}"
+        )
     return ", ".join(words)
 
 
@@ -229,21 +259,31 @@ def page(explained: Explained, versions: dict) -> str:
     from . import page as pages
     from . import payload
 
-    made = payload.of_case(explained.case, explained.truth, explained.row, explained.said, versions, explained.refused,
-                           explained.pieces)
-    return pages.page(made, f"{explained.case.id}: one case, {'not ' * bool(explained.refused)}certified")
+    made = payload.of_case(
+        explained.case,
+        explained.truth,
+        explained.row,
+        explained.said,
+        versions,
+        explained.refused,
+        explained.pieces,
+    )
+    return pages.page(
+        made, f"{explained.case.id}: one case, {'not ' * bool(explained.refused)}certified"
+    )
 
 
 def verdicts(explained: Explained) -> pd.DataFrame:
-    """method, outcome, time, error, detail of every method that answers the case's question, wrong answers first."""
+    """method, outcome, time, error, detail of every method that answers the case's question, wrong
+    answers first.
+    """
     found = metrics.judge(explained.said, pd.DataFrame([explained.row]), explained.pieces)
     found = found[~found.detail.fillna("").str.startswith("does not answer")]
     own = (found.truth == piece_truth.PIECES) & (found.detail.fillna("") == "")
-    found = found.assign(detail=found.detail.mask(own, "judged by CoACD's pieces of the mesh: " + found.label))
-    order = {
-        name: i
-        for i, name in enumerate(WORST_FIRST)
-    }
+    found = found.assign(
+        detail=found.detail.mask(own, "judged by CoACD's pieces of the mesh: " + found.label)
+    )
+    order = {name: i for i, name in enumerate(WORST_FIRST)}
     return (
         found.assign(order=found.outcome.map(order))
         .sort_values("order", kind="stable")[["method", "outcome", "time", "error", "detail"]]
@@ -252,14 +292,21 @@ def verdicts(explained: Explained) -> pd.DataFrame:
 
 
 def _body(row: dict, index: int) -> Body:
-    """ValueError, which names the body, where it is none. A name that is no digest says nothing of the content."""
+    """ValueError, which names the body, where it is none. A name that is no digest says nothing of
+    the content.
+    """
     row = {"name": row["body"], "faces": [], "piece_vertices": [], "piece_faces": [], **row}
     try:
         if row["kind"] == "convex" and not row["faces"]:
             return Body.convex(np.reshape(row["vertices"], (-1, 3)), row["name"])
         if re.fullmatch("[0-9a-f]{24}", row["body"]):
             return body_of(SimpleNamespace(**row))
-        return readback.body(*(row[name] for name in ("kind", "vertices", "faces", "piece_vertices", "piece_faces", "name")))
+        return readback.body(
+            *(
+                row[name]
+                for name in ("kind", "vertices", "faces", "piece_vertices", "piece_faces", "name")
+            )
+        )
     except (ValueError, TypeError) as error:
         raise ValueError(f"bodies[{index}]: {error}") from error
 
@@ -280,14 +327,19 @@ def _tags(row: dict) -> dict:
 
 
 def _truth(row: dict) -> Truth:
-    t_lo, t_hi, gap = (math.nan if row.get(key) is None else float(row[key]) for key in ("t_lo", "t_hi", "gap"))
+    t_lo, t_hi, gap = (
+        math.nan if row.get(key) is None else float(row[key]) for key in ("t_lo", "t_hi", "gap")
+    )
     certificate = row.get("certificate", "{}")
     certificate = _certificate(certificate) if isinstance(certificate, str) else certificate
     if not isinstance(certificate, dict):
         raise ValueError("certificate is no JSON object")
     for name in ("label", "start", "end"):
         if row.get(name, "uncertain") not in record.LABELS:
-            raise ValueError(f"{name} is {given.shown(repr(row[name]))}, and not one of {', '.join(record.LABELS)}")
+            raise ValueError(
+                f"{name} is {given.shown(repr(row[name]))}, and not one of"
+                f" {', '.join(record.LABELS)}"
+            )
     return Truth(
         row["label"],
         t_lo,

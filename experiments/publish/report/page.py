@@ -1,4 +1,6 @@
-"""One self-contained HTML file: the template, the style, the scripts, the libraries and the data, nothing from outside."""
+"""One self-contained HTML file: the template, the style, the scripts, the libraries and the data,
+nothing from outside.
+"""
 
 from __future__ import annotations
 
@@ -35,8 +37,16 @@ def page(payload: dict, title: str) -> str:
     bodies = content.pop("bytes")
     blocks = {"data": encode(content), "bytes": pack(bodies)}
     wanted = LIBRARIES if content["mode"] == "run" else LIBRARIES[1:]
-    blocks.update({name.split("-")[0].split(".")[0]: pack((HERE / "vendor" / name).read_bytes()) for name in wanted})
-    stores = "\n".join(f'<script type="application/octet-stream" id="{name}">{text}</script>' for name, text in blocks.items())
+    blocks.update(
+        {
+            name.split("-")[0].split(".")[0]: pack((HERE / "vendor" / name).read_bytes())
+            for name in wanted
+        }
+    )
+    stores = "\n".join(
+        f'<script type="application/octet-stream" id="{name}">{text}</script>'
+        for name, text in blocks.items()
+    )
     script = "\n".join((HERE / "page" / name).read_text() for name in SCRIPTS)
     made = (HERE / "page" / "page.html").read_text()
     parts = {

@@ -1,4 +1,6 @@
-"""What the page is given: the rows of a run, column by column, and the bodies of the cases it can draw, in bytes."""
+"""What the page is given: the rows of a run, column by column, and the bodies of the cases it can
+draw, in bytes.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +8,9 @@ import base64
 import gzip
 import json
 import math
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any, Iterable
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -15,18 +18,18 @@ import pandas as pd
 import ofg
 from baselines import registry
 from baselines.contract import Method
+from experiments.analysis import metrics, nesting, views
+from experiments.analysis.tables import tables
+from experiments.analysis.tables.methods import UNKNOWN
+from experiments.cases import families
+from experiments.run import piece_truth
+from experiments.run.folder.rows import MOTION, body_row, cases_of, filled
+from experiments.run.folder.store import Store
+from experiments.run.progress import stage
+from experiments.run.timing import SIZES, situation_of, size_of
 from ofg import Body, Query
 from ofg.decomposition import kept_at
 
-from experiments.analysis import metrics, nesting, views
-from experiments.run import piece_truth
-from experiments.cases import families
-from experiments.analysis.tables import tables
-from experiments.analysis.tables.methods import UNKNOWN
-from experiments.run.progress import stage
-from experiments.run.folder.rows import MOTION, body_row, cases_of, filled
-from experiments.run.folder.store import Store
-from experiments.run.timing import SIZES, situation_of, size_of
 from . import lanes, selection
 from .certificate import drawable
 
@@ -45,7 +48,8 @@ SHOWN = 24  # cases of each kind that the gallery can draw for each method
 BYTES = 8_000_000  # of bodies, before compression: what a page may weigh
 CASES = 3_000  # that a page can draw: what its making may take
 EXACT = 5_000  # vertices up to which a body is never rounded
-SELECTED = 2_000  # faces up to which a selection is drawn; of k = inf on a large mesh the page only says how many
+# faces up to which a selection is drawn; of k = inf on a large mesh the page only says how many
+SELECTED = 2_000
 OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
 
@@ -63,19 +67,32 @@ def of_run(store: Store, made_tables=None) -> dict:
         **_observations(found, rows),
     }
     made["methods"] = [_method(label, made["run"]["versions"]) for label in made["labels"]]
-    made["lanes"] = {**(lanes.python(store, rows) if store.has("timings.parquet") else {}), **lanes.native(store, set(made["labels"]))}
+    made["lanes"] = {
+        **(lanes.python(store, rows) if store.has("timings.parquet") else {}),
+        **lanes.native(store, set(made["labels"])),
+    }
     made["tables"] = [_table(t, found) for t in made_tables or tables.build(store)]
     return {**made, **_shapes(store, rows, found)}
 
 
-def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict, refused: str = "",
-            pieces: pd.DataFrame | None = None) -> dict:
-    """The same for one case: `row` is its row of cases.parquet, `observations` what methods said about it, `pieces` its row of
-    pieces.parquet if it has one.
+def of_case(
+    case,
+    truth,
+    row: dict,
+    observations: pd.DataFrame,
+    versions: dict,
+    refused: str = "",
+    pieces: pd.DataFrame | None = None,
+) -> dict:
+    """The same for one case: `row` is its row of cases.parquet, `observations` what methods said
+    about it, `pieces` its row of pieces.parquet if it has one.
 
     refused: why the checker does not accept its label, if it does not.
     """
-    rows = nesting.added(filled(pd.DataFrame([row])), pd.DataFrame([body_row(b) for b in (case.query.a, case.query.b)]))
+    rows = nesting.added(
+        filled(pd.DataFrame([row])),
+        pd.DataFrame([body_row(b) for b in (case.query.a, case.query.b)]),
+    )
     found = metrics.judge(observations, rows, pieces)
     made = {
         "mode": "case",
@@ -91,12 +108,20 @@ def of_case(case, truth, row: dict, observations: pd.DataFrame, versions: dict, 
     }
     made["methods"] = [_method(label, versions) for label in made["labels"]]
     shapes = Shapes(float("inf"), anew=True)
-    shapes.add(0, case, truth, [label for label in made["labels"] if label.split()[0] == "ofg"], len(made["labels"]))
+    shapes.add(
+        0,
+        case,
+        truth,
+        [label for label in made["labels"] if label.split()[0] == "ofg"],
+        len(made["labels"]),
+    )
     return {**made, **shapes.packed()}
 
 
 def encode(payload: dict) -> str:
-    """JSON, gzip, base64: what page/data.js takes apart with DecompressionStream. The same bytes for the same payload."""
+    """JSON, gzip, base64: what page/data.js takes apart with DecompressionStream. The same bytes
+    for the same payload.
+    """
     return pack(json.dumps(_plain(payload), allow_nan=False, separators=(",", ":")).encode())
 
 
@@ -156,7 +181,11 @@ def _cases(rows: pd.DataFrame) -> dict:
 
 def _scenarios(rows: pd.DataFrame) -> dict:
     known = families.scenarios()
-    return {name: {"axis": known[name].axis, "exposes": known[name].exposes} for name in rows.scenario.unique() if name in known}
+    return {
+        name: {"axis": known[name].axis, "exposes": known[name].exposes}
+        for name in rows.scenario.unique()
+        if name in known
+    }
 
 
 def _method(label: str, versions: dict) -> dict:
@@ -201,12 +230,23 @@ def _curve(label: str, cls) -> str:
 
 
 def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
-    """labels; outcome: of each method one letter for each case ("." where there is no row); time, error, detail: sparse.
+    """labels; outcome: of each method one letter for each case ("." where there is no row); time,
+    error, detail: sparse.
 
-    truth, sparse: the label and whether it can tunnel, where a method is judged by pieces and not by the case."""
+    truth, sparse: the label and whether it can tunnel, where a method is judged by pieces and not
+    by the case.
+    """
     place = {case: i for i, case in enumerate(rows.case)}
     labels = list(dict.fromkeys(found.method))
-    made = {"labels": labels, "outcome": [], "time": [], "error": [], "detail": [], "details": [], "truth": []}
+    made = {
+        "labels": labels,
+        "outcome": [],
+        "time": [],
+        "error": [],
+        "detail": [],
+        "details": [],
+        "truth": [],
+    }
     known: dict[str, int] = {}
     for _, part in found.groupby(pd.Categorical(found.method, labels), observed=True):
         letters = ["."] * len(rows)
@@ -218,9 +258,13 @@ def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
             there = part[name].notna()
             made[name].append([at[there].tolist(), part[name][there].tolist()])
         own = part.truth == piece_truth.PIECES
-        made["truth"].append([at[own].tolist(), part.label[own].tolist(), part.can_tunnel[own].tolist()])
+        made["truth"].append(
+            [at[own].tolist(), part.label[own].tolist(), part.can_tunnel[own].tolist()]
+        )
         said = part.detail.fillna("") != ""
-        made["detail"].append([at[said].tolist(), [known.setdefault(d, len(known)) for d in part.detail[said]]])
+        made["detail"].append(
+            [at[said].tolist(), [known.setdefault(d, len(known)) for d in part.detail[said]]]
+        )
     made["details"] = list(known)
     return made
 
@@ -240,15 +284,20 @@ def _table(table, found: pd.DataFrame) -> dict:
 
 
 def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
-    """Bodies, certificates and OFG's selections of the cases that can be drawn: first those of the gallery, then the rest,
-    while there is room."""
+    """Bodies, certificates and OFG's selections of the cases that can be drawn: first those of the
+    gallery, then the rest, while there is room.
+    """
     wanted = gallery(found)
     order = list(dict.fromkeys([*wanted, *rows.case]))
     place = {case: i for i, case in enumerate(rows.case)}
     known = {case.id: (case, truth) for case, truth in cases_of(rows, store.read("bodies.parquet"))}
     shapes, ours = Shapes(BYTES), found[found.method.str.split().str[0] == "ofg"]
     first = ours.method.iloc[:1].tolist()
-    wrong = ours[ours.outcome.isin(["miss", "false alarm"]) | (ours.error > 0)].groupby("case", sort=False).method.agg(list)
+    wrong = (
+        ours[ours.outcome.isin(["miss", "false alarm"]) | (ours.error > 0)]
+        .groupby("case", sort=False)
+        .method.agg(list)
+    )
     with stage("draw cases for the page", len(order)) as advance:
         for i in order:
             labels = [label for label in wanted.get(i, ()) if label.split()[0] == "ofg"]
@@ -261,12 +310,17 @@ def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
 def gallery(found: pd.DataFrame) -> dict[str, list[str]]:
     """case -> methods that it is shown for.
 
-    Of each method up to SHOWN misses, false alarms and late times, spread over scenarios and levels; of late times the latest.
+    Of each method up to SHOWN misses, false alarms and late times, spread over scenarios and
+    levels; of late times the latest.
     """
     wanted: dict[str, list[str]] = {}
     for label, part in found.groupby("method", sort=False):
         late = part[part.error > 0].sort_values("error", ascending=False)
-        kinds = [_spread(part[part.outcome == "miss"]), _spread(part[part.outcome == "false alarm"]), late]
+        kinds = [
+            _spread(part[part.outcome == "miss"]),
+            _spread(part[part.outcome == "false alarm"]),
+            late,
+        ]
         for case in dict.fromkeys(c for kind in kinds for c in kind.case[:SHOWN]):
             wanted.setdefault(case, []).append(label)
     return wanted
@@ -282,8 +336,9 @@ class Shapes:
     """Collects bodies (each once), certificates and selections until `room` bytes are full."""
 
     def __init__(self, room: float, anew: bool = False):
-        """anew: meshes may be decomposed, which can take a minute each; else OFG's pieces are shown where they are kept from
-        the run."""
+        """anew: meshes may be decomposed, which can take a minute each; else OFG's pieces are shown
+        where they are kept from the run.
+        """
         self.room, self.anew, self.bytes = room, anew, bytearray()
         self.bodies, self.drawn, self.proofs, self.ofg = [], {}, {}, {}
         self._known: dict[str, int] = {}
@@ -291,7 +346,11 @@ class Shapes:
 
     def add(self, place: int, case, truth, labels: Iterable[str], most: int) -> None:
         q = case.query
-        cost = sum(_cost(body) for body in {b.digest: b for b in (q.a, q.b)}.values() if body.digest not in self._known)
+        cost = sum(
+            _cost(body)
+            for body in {b.digest: b for b in (q.a, q.b)}.values()
+            if body.digest not in self._known
+        )
         if len(self.bytes) + cost > self.room or len(self.drawn) == CASES:
             return
         self.drawn[place] = [self._body(q.a), self._body(q.b)]
@@ -302,15 +361,24 @@ class Shapes:
                 self.ofg.setdefault(place, {})[label] = made
 
     def packed(self) -> dict:
-        return {"bodies": self.bodies, "drawn": self.drawn, "proofs": self.proofs, "ofg": self.ofg, "bytes": bytes(self.bytes)}
+        return {
+            "bodies": self.bodies,
+            "drawn": self.drawn,
+            "proofs": self.proofs,
+            "ofg": self.ofg,
+            "bytes": bytes(self.bytes),
+        }
 
     def _trace(self, query: Query, label: str, truth) -> dict | None:
-        """What OFG looked at; None where the method refuses the query or its pieces are not kept. "bodies" where it saw pieces
-        of a mesh."""
+        """What OFG looked at; None where the method refuses the query or its pieces are not kept.
+        "bodies" where it saw pieces of a mesh.
+        """
         (method,) = registry.make(label)
         options = {**method._options()}
         if method.decomposes:
-            if not self.anew and not all(body.kind != "mesh" or kept_at(body).is_file() for body in (query.a, query.b)):
+            if not self.anew and not all(
+                body.kind != "mesh" or kept_at(body).is_file() for body in (query.a, query.b)
+            ):
                 return None
             try:
                 pieces = [self._pieces(query.a), self._pieces(query.b)]

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from baselines import registry
-
 from experiments.run import declared
-from experiments.run.folder import given, manifest
 from experiments.run.config import ConfigError, RunConfig, load
+from experiments.run.folder import given, manifest
 from experiments.run.folder.store import Store
+
 from .explain import Explained, ask, digits, from_file, from_run, motion_words, page, save, verdicts
 
 LATE = (

@@ -1,6 +1,8 @@
-"""OFG's selections, remade in numpy from the published steps for display; the core alone says what OFG answered.
+"""OFG's selections, remade in numpy from the published steps for display; the core alone says what
+OFG answered.
 
-A test asks the core about the selected faces alone, all against all, and finds the answer that OFG gave.
+A test asks the core about the selected faces alone, all against all, and finds the answer that OFG
+gave.
 """
 
 from __future__ import annotations
@@ -20,7 +22,9 @@ AFTER = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 0.1)
 
 @dataclass(frozen=True)
 class Mesh:
-    """One piece as OFG sees it; faces of the piece i are first, first + 1, ... among those of the whole body."""
+    """One piece as OFG sees it; faces of the piece i are first, first + 1, ... among those of the
+    whole body.
+    """
 
     body: Body
     piece: int
@@ -40,16 +44,18 @@ class Mesh:
 
 
 def trace(query: Query, options: dict, impact: float = nan) -> dict:
-    """What OFG with these options (those of ofg.ask; bodies in pieces already if it is to see pieces) looks at; JSON-able values.
+    """What OFG with these options (those of ofg.ask; bodies in pieces already if it is to see
+    pieces) looks at; JSON-able values.
 
-    impact: the certified time of impact of a hit, NaN without one. Of several parts of the step (repair "arcs") the one that it
-    lies in is shown.
+    impact: the certified time of impact of a hit, NaN without one. Of several parts of the step
+    (repair "arcs") the one that it lies in is shown.
 
-    hit, time, found: the answer. met: the faces that met, [a, b] or None. stopped: "" or the step that ended it before a face
-    was tested. pieces: those asked. window: [from, to], one of `parts`. a, b: selected faces, nearest first. selections: at how
-    many times they were made. vertices_b: virtual edges of B's vertices too. should: faces that do meet at `time`, and their
-    places in the order of all faces by distance (None where they belong to a piece that was not asked); None where no surfaces
-    meet. All faces are indices into those of the whole body.
+    hit, time, found: the answer. met: the faces that met, [a, b] or None. stopped: "" or the step
+    that ended it before a face was tested. pieces: those asked. window: [from, to], one of `parts`.
+    a, b: selected faces, nearest first. selections: at how many times they were made. vertices_b:
+    virtual edges of B's vertices too. should: faces that do meet at `time`, and their places in the
+    order of all faces by distance (None where they belong to a piece that was not asked); None
+    where no surfaces meet. All faces are indices into those of the whole body.
     """
     answer = ofg.ask(query, **options)
     chosen = _Options(**options)
@@ -63,14 +69,20 @@ def trace(query: Query, options: dict, impact: float = nan) -> dict:
         "selections": chosen.selections,
         "stopped": "",
     }
-    made["met"] = [answer.faces[0] + ma.first, answer.faces[1] + mb.first] if answer.hit and min(answer.faces) >= 0 else None
+    made["met"] = (
+        [answer.faces[0] + ma.first, answer.faces[1] + mb.first]
+        if answer.hit and min(answer.faces) >= 0
+        else None
+    )
     moving = query.question != "overlap"
     parts = _parts(query, ma, mb, chosen) if moving else 1
     at = answer.time if answer.hit and not np.isnan(answer.time) else impact
     index = min(int(at * parts), parts - 1) if at == at else 0
     window = (index / parts, (index + 1) / parts) if moving else (0.0, 0.0)
     fa, fb = select(query, ma, mb, window, chosen)
-    made.update(window=list(window), parts=parts, a=(fa + ma.first).tolist(), b=(fb + mb.first).tolist())
+    made.update(
+        window=list(window), parts=parts, a=(fa + ma.first).tolist(), b=(fb + mb.first).tolist()
+    )
     if not answer.hit:
         made["stopped"] = _stopped(query, ma, mb, fa, fb, moving, chosen)
     if impact == impact or (not moving and not answer.hit):
@@ -78,7 +90,9 @@ def trace(query: Query, options: dict, impact: float = nan) -> dict:
     return made
 
 
-def select(query: Query, a: Mesh, b: Mesh, window: tuple[float, float], chosen: "_Options") -> tuple[np.ndarray, np.ndarray]:
+def select(
+    query: Query, a: Mesh, b: Mesh, window: tuple[float, float], chosen: _Options
+) -> tuple[np.ndarray, np.ndarray]:
     """Steps 2 to 5 and 7: indices of the selected faces of both pieces, nearest first."""
     times, gap = _times(query, a, b, window, chosen)
     poses = [_relative(query, t) for t in times]
@@ -91,7 +105,9 @@ def select(query: Query, a: Mesh, b: Mesh, window: tuple[float, float], chosen: 
         reach_a += gap * _speed(query, 0.0, _arm(b.centre, query.motion_b), far)
     fa = _nearest(a, [r.T @ (b.centre - p) for r, p in poses], chosen, reach_a)
     centre, radius = _sphere(a, fa)
-    reach_b = radius + (gap * _speed(query, _arm(centre, query.motion), 0.0, far) if chosen.adaptive_k else 0.0)
+    reach_b = radius + (
+        gap * _speed(query, _arm(centre, query.motion), 0.0, far) if chosen.adaptive_k else 0.0
+    )
     return fa, _nearest(b, [r @ centre + p for r, p in poses], chosen, reach_b)
 
 
@@ -114,7 +130,9 @@ class _Options:
 
 
 def _pieces(query: Query, chosen: _Options, answer) -> tuple[Mesh, Mesh]:
-    """The pieces that the core says it asked; where it asked all pairs and none met, the pair at the object level."""
+    """The pieces that the core says it asked; where it asked all pairs and none met, the pair at
+    the object level.
+    """
     ids = list(answer.pieces)
     if chosen.concave == "all-pairs" and not answer.hit:
         ids = list(ofg.ask(query, k=1, concave="object", broad="swept").pieces)
@@ -181,7 +199,10 @@ def _distances(mesh: Mesh, point: np.ndarray, nearest: str) -> np.ndarray:
     if nearest == "centroid":
         d = corners.mean(axis=1) - point
     else:
-        d = trimesh.triangles.closest_point(corners, np.broadcast_to(point, (len(corners), 3))) - point
+        d = (
+            trimesh.triangles.closest_point(corners, np.broadcast_to(point, (len(corners), 3)))
+            - point
+        )
     return np.einsum("ij,ij->i", d, d)
 
 
@@ -211,7 +232,9 @@ def _sphere(mesh: Mesh, faces: np.ndarray) -> tuple[np.ndarray, float]:
 
 
 def _parts(query: Query, a: Mesh, b: Mesh, chosen: _Options) -> int:
-    """Into how many equal parts the repair "arcs" halves the step: as stray.hpp bounds what chords stray by."""
+    """Into how many equal parts the repair "arcs" halves the step: as stray.hpp bounds what chords
+    stray by.
+    """
     wa, wb = abs(query.motion.angle), abs(query.motion_b.angle)
     if not chosen.arc_tolerance or not wa + wb:
         return 1
@@ -239,7 +262,9 @@ def _bend(own: float, other: float, lever: float, slide: float, apart: float) ->
 def _lever(mesh: Mesh, motion: Motion) -> float:
     """No vertex is farther from the point that the body turns about."""
     about = motion.about if motion.angle else np.zeros(3)
-    return min(mesh.body.radius + np.linalg.norm(about), mesh.radius + np.linalg.norm(mesh.centre - about))
+    return min(
+        mesh.body.radius + np.linalg.norm(about), mesh.radius + np.linalg.norm(mesh.centre - about)
+    )
 
 
 def _pivots(query: Query) -> np.ndarray:
@@ -258,7 +283,9 @@ def _stopped(query, a, b, fa, fb, moving, chosen) -> str:
     sides = ((a, query.motion), (b, query.motion_b)) if moving and chosen.broad == "swept" else ()
     stray = sum(_arm(mesh.centre, motion) * min(motion.angle**2 / 8, 2.0) for mesh, motion in sides)
     if np.linalg.norm(closest) > a.radius + b.radius + stray:
-        return "step 1: the bounding spheres are apart" + (" at the start pose" if moving and chosen.broad == "start" else "")
+        return "step 1: the bounding spheres are apart" + (
+            " at the start pose" if moving and chosen.broad == "start" else ""
+        )
     if not moving:
         (ca, ra), (cb, rb), (r, p) = _sphere(a, fa), _sphere(b, fb), _relative(query, 0.0)
         if np.linalg.norm(r @ ca + p - cb) > ra + rb:
@@ -267,19 +294,28 @@ def _stopped(query, a, b, fa, fb, moving, chosen) -> str:
 
 
 def _should(query: Query, a: Mesh, b: Mesh, chosen: _Options, window, impact: float) -> dict | None:
-    """Two faces that meet at the impact or soon after, and their places in the order by distance."""
+    """Two faces that meet at the impact or soon after, and their places in the order by
+    distance.
+    """
     for later in AFTER if query.question != "overlap" else (0.0,):
         t = min(impact + later, 1.0)
         met = ofg.brute_force(Query("overlap", query.a, query.b, *_poses(query, t)))
         if met.hit:
-            return {"time": t, "faces": list(met.faces), "places": _places(query, a, b, chosen, window, met.faces)}
+            return {
+                "time": t,
+                "faces": list(met.faces),
+                "places": _places(query, a, b, chosen, window, met.faces),
+            }
     return None
 
 
 def _places(query, a, b, chosen, window, faces) -> list[int | None]:
     r, p = _relative(query, window[0])
     fa, _ = select(query, a, b, window, chosen)
-    orders = [_distances(a, r.T @ (b.centre - p), chosen.nearest), _distances(b, r @ _sphere(a, fa)[0] + p, chosen.nearest)]
+    orders = [
+        _distances(a, r.T @ (b.centre - p), chosen.nearest),
+        _distances(b, r @ _sphere(a, fa)[0] + p, chosen.nearest),
+    ]
     places = []
     for mesh, face, d in zip((a, b), faces, orders):
         own = face - mesh.first

@@ -1,4 +1,6 @@
-"""Files that somebody else may have written: read whole as text or JSON, or refused in a sentence."""
+"""Files that somebody else may have written: read whole as text or JSON, or refused in a
+sentence.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ class GivenError(ValueError):
 
 
 def regular(path: Path, what: str) -> int:
-    """The bytes of a file. GivenError for a folder, a pipe or a device, at which reading would wait for ever."""
+    """The bytes of a file. GivenError for a folder, a pipe or a device, at which reading would wait
+    for ever.
+    """
     try:
         found = os.stat(path)
     except (OSError, ValueError) as error:
@@ -33,15 +37,23 @@ def text(path: Path, what: str, most: int = MOST_TEXT) -> str:
     """What a UTF-8 file holds. what: its kind, as a message begins. GivenError."""
     size = regular(path, what)
     if size > most:
-        raise GivenError(f"{what} {shown(path)} has {size} bytes; {most} are the most that are read. It is probably another file.")
+        raise GivenError(
+            f"{what} {shown(path)} has {size} bytes; {most} are the most that are read. It is"
+            " probably another file."
+        )
     try:
         found = Path(path).read_bytes().decode()
     except UnicodeDecodeError as error:
-        raise GivenError(f"{what} {shown(path)} is not UTF-8 text (byte {error.start}). Save it as UTF-8, or give another file.") from error
+        raise GivenError(
+            f"{what} {shown(path)} is not UTF-8 text (byte {error.start}). Save it as UTF-8, or"
+            " give another file."
+        ) from error
     except OSError as error:
         raise GivenError(f"{what} {shown(path)} cannot be read: {reason(error)}.") from error
     if "\0" in found:
-        raise GivenError(f"{what} {shown(path)} holds a NUL byte, so it is no text. Give another file.")
+        raise GivenError(
+            f"{what} {shown(path)} holds a NUL byte, so it is no text. Give another file."
+        )
     return found
 
 
@@ -56,7 +68,9 @@ def json_in(path: Path, what: str, most: int = MOST_TEXT) -> Any:
     except GivenError:
         raise
     except ValueError as error:  # a whole number of thousands of digits
-        raise GivenError(f"{what} {shown(path)} holds a number that cannot be read: {clipped(str(error))}.") from error
+        raise GivenError(
+            f"{what} {shown(path)} holds a number that cannot be read: {clipped(str(error))}."
+        ) from error
 
 
 def reason(error: Exception) -> str:
@@ -64,8 +78,13 @@ def reason(error: Exception) -> str:
 
 
 def printable(words: Any) -> str:
-    """Words from outside on one line, what cannot be printed escaped: a terminal obeys some of it."""
-    return "".join(c if c.isprintable() else " " if c in "\n\t" else c.encode("unicode_escape").decode() for c in str(words))
+    """Words from outside on one line, what cannot be printed escaped: a terminal obeys some
+    of it.
+    """
+    return "".join(
+        c if c.isprintable() else " " if c in "\n\t" else c.encode("unicode_escape").decode()
+        for c in str(words)
+    )
 
 
 def shown(words: Any) -> str:
@@ -75,7 +94,7 @@ def shown(words: Any) -> str:
 def clipped(words: str, most: int = 300) -> str:
     """On one line, and not a long one."""
     line = " ".join(words.split())
-    return line if len(line) <= most else f"{line[:most - 40]}... ({len(line)} characters)"
+    return line if len(line) <= most else f"{line[: most - 40]}... ({len(line)} characters)"
 
 
 def markup(words: Any) -> str:

@@ -16,7 +16,8 @@ from pathlib import Path
 from experiments.run.progress import say
 
 NAME = ".lock"
-_FLAGS = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC  # a link in its place is not written through
+# a link in its place is not written through
+_FLAGS = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC
 _NO_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP, errno.EINVAL)
 
 
@@ -61,8 +62,10 @@ class Lock:
         except OSError as error:
             if error.errno not in _NO_LOCKS:
                 raise
-            say(f"The file system of {self.folder} has no locks ({error.strerror}): nothing keeps a"
-                " second run out of it. See to it that there is none.")
+            say(
+                f"The file system of {self.folder} has no locks ({error.strerror}): nothing keeps a"
+                " second run out of it. See to it that there is none."
+            )
 
     def _is_the_one(self) -> bool:
         try:
@@ -74,5 +77,7 @@ class Lock:
         self._file.seek(0)
         process, _, host = self._file.read().strip().partition(" ")
         holder = f"process {process} on {host}" if process else "another process"
-        return (f"The folder {self.folder} is in use by {holder}. Wait until it ends, end it, or "
-                "choose another folder with --out.")
+        return (
+            f"The folder {self.folder} is in use by {holder}. Wait until it ends, end it, or "
+            "choose another folder with --out."
+        )

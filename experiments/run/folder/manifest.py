@@ -7,7 +7,7 @@ import os
 import platform
 import subprocess
 import sys
-from datetime import datetime, UTC
+from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 
@@ -15,7 +15,6 @@ import psutil
 
 from baselines import registry
 from baselines.native import library
-
 from experiments.run.config import RunConfig
 
 LIBRARIES = ("numpy", "scipy", "pandas", "pyarrow", "python-flint", "trimesh", "coacd", "ofg")
@@ -25,9 +24,13 @@ def machine() -> dict:
     """Processor, frequency, memory, load, system: no name of the machine and no path."""
     frequency = psutil.cpu_freq()
     return {
-        "processor": _processor(), "cores": os.cpu_count(), "mhz": round(frequency.current) if frequency else None,
-        "memory_gib": round(psutil.virtual_memory().total / 2**30), "load": [round(x, 2) for x in os.getloadavg()],
-        "system": platform.platform(), "python": sys.version.split()[0],
+        "processor": _processor(),
+        "cores": os.cpu_count(),
+        "mhz": round(frequency.current) if frequency else None,
+        "memory_gib": round(psutil.virtual_memory().total / 2**30),
+        "load": [round(x, 2) for x in os.getloadavg()],
+        "system": platform.platform(),
+        "python": sys.version.split()[0],
     }
 
 
@@ -44,11 +47,21 @@ def build() -> dict:
 
 
 def commit() -> str:
-    """The commit of the checkout with '+' if files other than results differ from it; 'unknown' outside a checkout."""
+    """The commit of the checkout with '+' if files other than results differ from it; 'unknown'
+    outside a checkout.
+    """
     root = Path(__file__).parent
     try:
-        head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=root, capture_output=True, text=True, check=True).stdout.strip()
-        dirty = subprocess.run(["git", "status", "--porcelain", "-uno", "--", ":/", ":(top,exclude)results"], cwd=root, capture_output=True, text=True, check=True).stdout.strip()
+        head = subprocess.run(
+            ["git", "rev-parse", "HEAD"], cwd=root, capture_output=True, text=True, check=True
+        ).stdout.strip()
+        dirty = subprocess.run(
+            ["git", "status", "--porcelain", "-uno", "--", ":/", ":(top,exclude)results"],
+            cwd=root,
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.strip()
         return head + ("+" if dirty else "")
     except (OSError, subprocess.CalledProcessError):
         return "unknown"
@@ -59,7 +72,9 @@ def now() -> str:
 
 
 def version(name: str) -> str | None:
-    """Of an installed distribution, or of a library that the native lane built; None where there is none."""
+    """Of an installed distribution, or of a library that the native lane built; None where there is
+    none.
+    """
     if found := library.version(name):
         return found
     try:
@@ -71,17 +86,29 @@ def version(name: str) -> str | None:
 def _processor() -> str:
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
-        return next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
+        return next(
+            line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")
+        )
     except (OSError, StopIteration):
         return platform.processor() or "unknown"
 
 
 #: what is made from the rows at any time, or tells of the machine: not data of the run
-DERIVED = {"manifest.json", "report.html", "outcomes.parquet", "workers.log", "tables", "figures", "parts"}
+DERIVED = {
+    "manifest.json",
+    "report.html",
+    "outcomes.parquet",
+    "workers.log",
+    "tables",
+    "figures",
+    "parts",
+}
 
 
 def hashes(folder: Path) -> dict[str, str]:
-    """SHA-256 (hex) of each data file of a run by its path in the folder. Links are not followed."""
+    """SHA-256 (hex) of each data file of a run by its path in the folder. Links are not
+    followed.
+    """
     found = {}
     for path in sorted(Path(folder).rglob("*")):
         name = path.relative_to(folder)

@@ -30,9 +30,13 @@ def facts(engine: str | None = None) -> dict:
 def code() -> str:
     """A digest of the project's own code, Python and compiled: the same for the same code only."""
     found = hashlib.sha256()
-    paths = [p for name in PACKAGES for p in sorted((ROOT / name).rglob("*"))
-             if p.suffix in CODE
-             and not (name == "experiments" and p.relative_to(ROOT / name).parts[0] in READERS)]
+    paths = [
+        p
+        for name in PACKAGES
+        for p in sorted((ROOT / name).rglob("*"))
+        if p.suffix in CODE
+        and not (name == "experiments" and p.relative_to(ROOT / name).parts[0] in READERS)
+    ]
     for path in [*paths, *(Path(importlib.util.find_spec(name).origin) for name in NATIVE)]:
         content = hashlib.sha256(path.read_bytes()).hexdigest()
         found.update(f"{path.name} {content}\n".encode())

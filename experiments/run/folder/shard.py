@@ -10,9 +10,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from ofg import wholefile
-
 from experiments.run.progress import say
+from ofg import wholefile
 
 FORMAT = 1  # goes up when the columns of a shard or their meaning change
 LENGTH = 32  # hexadecimal digits of a key, and of a digest
@@ -26,7 +25,9 @@ def key(made_of: dict) -> str:
 
 @dataclass(frozen=True)
 class Shard:
-    """folder/KEY.DIGEST.parquet. The digest is in the name, as two files are not renamed at once."""
+    """folder/KEY.DIGEST.parquet. The digest is in the name, as two files are not renamed at
+    once.
+    """
 
     folder: Path
     key: str

@@ -1,4 +1,6 @@
-"""The run folder: what is in it, written so that a kill at any moment loses at most the part being made."""
+"""The run folder: what is in it, written so that a kill at any moment loses at most the part being
+made.
+"""
 
 from __future__ import annotations
 
@@ -6,19 +8,19 @@ import contextlib
 import hashlib
 import json
 import shutil
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Callable, Iterator
 
 import pandas as pd
 
+from experiments.run import ownfile
+from experiments.run.config import RunConfig, parsed
+from experiments.run.processes.machine import ERRNOS, MachineError
+from experiments.run.progress import say
 from ofg import wholefile
 
 from . import given, lock, record
-from experiments.run import ownfile
-from experiments.run.config import RunConfig, parsed
 from .inside import inside
-from experiments.run.processes.machine import ERRNOS, MachineError
-from experiments.run.progress import say
 from .shard import Shard, key
 
 #: what a run makes before its config.json, or all that is left where that file was lost
@@ -30,9 +32,10 @@ class StoreError(RuntimeError):
 
 
 class Store:
-    """One run = one folder: config.json, manifest.json, cases.parquet, bodies.parquet, observations.parquet, timings.parquet,
-    pieces.parquet and pieces-bodies.parquet (where a method decomposes meshes),
-    tables/, figures/, own/ (copies of a reader's own files); `parts/` holds shards of an unfinished run and is removed at its end.
+    """One run = one folder: config.json, manifest.json, cases.parquet, bodies.parquet,
+    observations.parquet, timings.parquet, pieces.parquet and pieces-bodies.parquet (where a method
+    decomposes meshes), tables/, figures/, own/ (copies of a reader's own files); `parts/` holds
+    shards of an unfinished run and is removed at its end.
     """
 
     def __init__(self, folder):
@@ -70,13 +73,17 @@ class Store:
                 holder.__exit__()
 
     def begin(self, config: RunConfig) -> None:
-        """Claim the folder for this configuration, or go on with the same one. StoreError where another run is there."""
+        """Claim the folder for this configuration, or go on with the same one. StoreError where
+        another run is there.
+        """
         self._refuse_foreign()
         known = self._sound("config.json")
         if known:
             if changed := ", ".join(config.differences(self.config)):
-                raise StoreError(f"The folder {self.folder} holds a run of another configuration (it differs in: {changed}). "
-                                 "Choose another folder with --out, or remove that one.")
+                raise StoreError(
+                    f"The folder {self.folder} holds a run of another configuration (it differs in:"
+                    f" {changed}). Choose another folder with --out, or remove that one."
+                )
             if changed := ownfile.changed(config, self.folder):
                 raise StoreError(changed)
         if not (known and self._sound("manifest.json")):
@@ -85,15 +92,23 @@ class Store:
         # the copies first: where config.json is, they are
         for name, path in ownfile.copies(config).items():
             if not self.has(ownfile.FOLDER, name):
-                self.write_file(lambda to, path=path: shutil.copyfile(path, to), ownfile.FOLDER, name)
+                self.write_file(
+                    lambda to, path=path: shutil.copyfile(path, to), ownfile.FOLDER, name
+                )
         self.write_text(config.model_dump_json(indent=1) + "\n", "config.json")
 
     @property
     def config(self) -> RunConfig:
         path = self.folder / "config.json"
         if not path.is_file():
-            raise StoreError(f"{self.folder} is no run folder: it has no config.json. Make one with: ofg-bench run quick --out {self.folder}")
-        return parsed(_of_now(given.text(self.folder / "config.json", "The file")), self.folder / "config.json")
+            raise StoreError(
+                f"{self.folder} is no run folder: it has no config.json. Make one with: ofg-bench"
+                f" run quick --out {self.folder}"
+            )
+        return parsed(
+            _of_now(given.text(self.folder / "config.json", "The file")),
+            self.folder / "config.json",
+        )
 
     @property
     def facts(self) -> dict:
@@ -118,7 +133,9 @@ class Store:
             with self._machine(name.folder):
                 name.write(frame)
             return
-        self.write_file(lambda to: frame.to_parquet(to, index=False, compression="zstd"), name, *names)
+        self.write_file(
+            lambda to: frame.to_parquet(to, index=False, compression="zstd"), name, *names
+        )
 
     def write_text(self, text: str, *names: str) -> None:
         self.write_file(lambda temporary: temporary.write_text(text), *names)
@@ -133,11 +150,20 @@ class Store:
             wholefile.write(path, fill)
 
     def read(self, name: str | Shard, *names: str, checked: bool = True) -> pd.DataFrame:
-        """The rows of a file, or of a shard. checked: with columns, types and ranges as record.COLUMNS says; RecordError if not."""
+        """The rows of a file, or of a shard. checked: with columns, types and ranges as
+        record.COLUMNS says; RecordError if not.
+        """
         path = name.folder if isinstance(name, Shard) else self.folder.joinpath(name, *names)
         if not (name.ready() if isinstance(name, Shard) else path.is_file()):
-            raise StoreError(f"{path} is missing: the run in {self.folder} is not finished. Finish it with: ofg-bench resume {self.folder}")
-        frame = name.read() if isinstance(name, Shard) else record.read(path, name if checked and not names else "")
+            raise StoreError(
+                f"{path} is missing: the run in {self.folder} is not finished. Finish it with:"
+                f" ofg-bench resume {self.folder}"
+            )
+        frame = (
+            name.read()
+            if isinstance(name, Shard)
+            else record.read(path, name if checked and not names else "")
+        )
         if "method" in frame:
             frame["method"] = frame["method"].map(_of_now)
         return frame
@@ -149,10 +175,15 @@ class Store:
         if not self.has("config.json") and self.folder.exists():
             left = set(wholefile.leftovers(self.folder))
             if any(p.name not in _OURS for p in set(self.folder.iterdir()) - left):
-                raise StoreError(f"The folder {self.folder} is not empty and holds no run. Choose another one with --out.")
+                raise StoreError(
+                    f"The folder {self.folder} is not empty and holds no run. Choose another one"
+                    " with --out."
+                )
 
     def _sound(self, name: str) -> bool:
-        """Whether the file is there and JSON. One that is not is made again by `begin`, with a notice."""
+        """Whether the file is there and JSON. One that is not is made again by `begin`, with a
+        notice.
+        """
         path = self.folder / name
         if not path.exists():
             return False
@@ -168,13 +199,21 @@ class Store:
         try:
             yield
         except OSError as error:
-            raise MachineError(f"{path} could not be written: {error.strerror or error}. What was finished before is kept; free some "
-                               f"space or make the folder writable, then say: ofg-bench resume {self.folder}") from error
+            raise MachineError(
+                f"{path} could not be written: {error.strerror or error}. What was finished before"
+                " is kept; free some space or make the folder writable, then say: ofg-bench resume"
+                f" {self.folder}"
+            ) from error
 
     def _unusable(self, error: OSError) -> StoreError | MachineError:
-        kind, remedy = ((MachineError, "Free some space, then say the same command again") if error.errno in ERRNOS
-                        else (StoreError, "Choose a folder that can be written with --out"))
-        return kind(f"The folder {self.folder} cannot be used: {error.strerror or error}. {remedy}.")
+        kind, remedy = (
+            (MachineError, "Free some space, then say the same command again")
+            if error.errno in ERRNOS
+            else (StoreError, "Choose a folder that can be written with --out")
+        )
+        return kind(
+            f"The folder {self.folder} cannot be used: {error.strerror or error}. {remedy}."
+        )
 
 
 #: parameters of methods that had another name when a run was recorded, as they stand in its labels
@@ -182,7 +221,9 @@ _RENAMED = {" selection=": " nearest=", " selections=": " selection_times="}
 
 
 def _of_now(text: str) -> str:
-    """Labels of methods as they are written now; what is no text stays as it is, for the reader to refuse."""
+    """Labels of methods as they are written now; what is no text stays as it is, for the reader to
+    refuse.
+    """
     if not isinstance(text, str):
         return text
     for then, now in _RENAMED.items():

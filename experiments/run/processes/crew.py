@@ -1,4 +1,6 @@
-"""The runner's side of its workers: it starts them, hears them, holds them to their limits and buries them."""
+"""The runner's side of its workers: it starts them, hears them, holds them to their limits and
+buries them.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +13,11 @@ import signal
 import socket
 import subprocess
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
-from typing import Any, Sequence
+from typing import Any
 
 from . import process
 from .limits import Page
@@ -79,7 +82,9 @@ class Crew:
     def __init__(self, log: Path):
         self.log, self.workers, self.news, self.deaths = Log(log), {}, [], 0
         self.looked = monotonic()
-        self.ended: list[tuple[Worker, None]] = []  # with a fork server that died while another worker was started
+        self.ended: list[
+            tuple[Worker, None]
+        ] = []  # with a fork server that died while another worker was started
 
     @property
     def busy(self) -> bool:
@@ -105,14 +110,18 @@ class Crew:
         self.log.close()
 
     def start(self, job, payload: Sequence[Any]) -> None:
-        """A fresh worker for the job. payload: see worker.work. MachineError where none can be started."""
+        """A fresh worker for the job. payload: see worker.work. MachineError where none can be
+        started.
+        """
         while True:
             try:
                 return self._start(job, payload)
             except _ServerGone:
                 self.ended += self._bury_all()
             except OSError as error:
-                raise MachineError(f"No process could be started ({error.strerror or error}). {RESUME}") from error
+                raise MachineError(
+                    f"No process could be started ({error.strerror or error}). {RESUME}"
+                ) from error
 
     def _start(self, job, payload) -> None:
         server = _server()
@@ -134,7 +143,9 @@ class Crew:
         self.workers[pid] = Worker(pid, page, results, output, job)
 
     def wait(self) -> list[tuple[Worker, int | None]]:
-        """Workers that have ended, each with its exit code: -n for signal n, None where its fork server died."""
+        """Workers that have ended, each with its exit code: -n for signal n, None where its fork
+        server died.
+        """
         if self.ended:
             ended, self.ended = self.ended, []
             return ended
@@ -145,7 +156,9 @@ class Crew:
 
     def _wait(self) -> list[tuple[Worker, int | None]]:
         server, ended = _server(), []
-        listened = [fd for w in self.workers.values() for fd in (w.results, w.output) if fd not in w.deaf]
+        listened = [
+            fd for w in self.workers.values() for fd in (w.results, w.output) if fd not in w.deaf
+        ]
         ready, _, _ = select.select([server.channel, *listened], [], [], 0 if self.news else TICK)
         late = monotonic() - self.looked > STOPPED
         for worker in self.workers.values():
@@ -190,8 +203,10 @@ class Crew:
         self.news.clear()
         ended = [(self._buried(pid), None) for pid in list(self.workers)]
         if self.deaths >= STARTS:
-            raise MachineError(f"The process that starts the workers died {STARTS} times, and nothing got done "
-                               f"between. {RESUME}")
+            raise MachineError(
+                f"The process that starts the workers died {STARTS} times, and nothing got done "
+                f"between. {RESUME}"
+            )
         return ended
 
     def _await(self, kind: str) -> dict:
@@ -207,8 +222,10 @@ class Crew:
             self.news.append(said)
 
 
-RESUME = ("What was finished is kept. See to the machine (memory, limits on processes, another program that ends "
-          "them), then say the same command again, or: ofg-bench resume RUN")
+RESUME = (
+    "What was finished is kept. See to the machine (memory, limits on processes, another program"
+    " that ends them), then say the same command again, or: ofg-bench resume RUN"
+)
 
 
 class _ServerGone(Exception):
@@ -216,18 +233,27 @@ class _ServerGone(Exception):
 
 
 class _Server:
-    """A fork server and the socket to it. owner: the process that started it; a fork of that one needs its own."""
+    """A fork server and the socket to it. owner: the process that started it; a fork of that one
+    needs its own.
+    """
 
     def __init__(self):
         self.owner = os.getpid()
         self.channel, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.channel.settimeout(ANSWER)
-        code = (f"import sys; sys.path[:] = {sys.path!r}; from experiments.run.processes.forker import serve; "
-                f"serve({theirs.fileno()}, {self.owner})")
+        code = (
+            f"import sys; sys.path[:] = {sys.path!r}; from experiments.run.processes.forker import"
+            f" serve; serve({theirs.fileno()}, {self.owner})"
+        )
         with theirs:
             self.process = subprocess.Popen(
-                [sys.executable, "-c", code], pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL, start_new_session=True, env={**os.environ, VARIABLE: str(self.owner)})
+                [sys.executable, "-c", code],
+                pass_fds=[theirs.fileno()],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                start_new_session=True,
+                env={**os.environ, VARIABLE: str(self.owner)},
+            )
         self.hear()
 
     def ask(self, fds: list[int]) -> None:
@@ -250,7 +276,9 @@ _current: _Server | None = None
 
 
 def _server() -> _Server:
-    """The fork server of this process, started at the first call; runs after one another share it."""
+    """The fork server of this process, started at the first call; runs after one another
+    share it.
+    """
     global _current
     if _current is None or _current.owner != os.getpid():
         _current = _Server()

@@ -1,7 +1,7 @@
 """The process that workers are forked from: with the imports done, a worker starts in milliseconds.
 
-It is started by `crew`, and does two things more than a server of multiprocessing: it adopts what workers
-leave behind, and it ends all of that when its runner is gone, however that died.
+It is started by `crew`, and does two things more than a server of multiprocessing: it adopts what
+workers leave behind, and it ends all of that when its runner is gone, however that died.
 """
 
 from __future__ import annotations
@@ -17,8 +17,14 @@ import socket
 from . import process
 
 # Without these imports each worker takes a second to start. No engine is among them.
-PRELOAD = ("experiments.cli.app", "experiments.run.labelling", "experiments.run.answering", "experiments.run.timing",
-           "experiments.truth", "experiments.run.processes.worker")
+PRELOAD = (
+    "experiments.cli.app",
+    "experiments.run.labelling",
+    "experiments.run.answering",
+    "experiments.run.timing",
+    "experiments.truth",
+    "experiments.run.processes.worker",
+)
 DESCRIPTORS = 4  # that come with each request: see worker.work
 
 
@@ -111,7 +117,9 @@ class _Server:
             os._exit(1)
 
     def _bury(self) -> None:
-        """Report the dead, each after the end of its group: its number is not given anew before that."""
+        """Report the dead, each after the end of its group: its number is not given anew before
+        that.
+        """
         while self.workers:
             info = os.waitid(os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT)
             if info is None:

@@ -1,7 +1,7 @@
 """Two limits on what a worker does: processor time, and a deadline on the wall ten times later.
 
-The worker keeps the first itself, by a timer of the kernel; the runner looks after both from outside,
-by a page of memory that the two share.
+The worker keeps the first itself, by a timer of the kernel; the runner looks after both from
+outside, by a page of memory that the two share.
 """
 
 from __future__ import annotations
@@ -110,7 +110,9 @@ class Page:
         return processor_seconds(pid) - self._spent
 
     def forgive(self) -> None:
-        """Count the wall anew: the runner itself was stopped and knows nothing of the time since."""
+        """Count the wall anew: the runner itself was stopped and knows nothing of the time
+        since.
+        """
         self._begun = monotonic()
 
     def close(self) -> None:
@@ -130,7 +132,8 @@ def processor_seconds(pid: int) -> float:
         process = psutil.Process(pid)
         for one in (process, *process.children(recursive=True)):
             with contextlib.suppress(psutil.Error):
-                total += sum(one.cpu_times()[:4])  # user, system, and both of the children it waited for
+                # user, system, and both of the children it waited for
+                total += sum(one.cpu_times()[:4])
     except psutil.Error:
         pass
     return total

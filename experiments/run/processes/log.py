@@ -1,4 +1,6 @@
-"""What workers print, in one file that stays small: the beginning of what each process prints, up to a bound for all."""
+"""What workers print, in one file that stays small: the beginning of what each process prints, up
+to a bound for all.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ ALL = 16 << 20  # bytes that the file may hold
 
 
 class Log:
-    """Takes what comes through pipes. That the file cannot be written ends no run: nothing in it is data."""
+    """Takes what comes through pipes. That the file cannot be written ends no run: nothing in it is
+    data.
+    """
 
     def __init__(self, path: Path):
         self.file, self.size = None, 0
@@ -22,7 +26,9 @@ class Log:
         self.cut: dict[int, int] = {}
 
     def write(self, pid: int, fd: int) -> bool:
-        """Empty the pipe, at most a megabyte of it, and keep what has a place. False: nobody writes there any more."""
+        """Empty the pipe, at most a megabyte of it, and keep what has a place. False: nobody writes
+        there any more.
+        """
         for _ in range(16):
             try:
                 data = os.read(fd, 1 << 16)

@@ -4,10 +4,20 @@ from __future__ import annotations
 
 import errno
 
-#: errors of the machine, whatever was asked; any other at the start is a folder that was badly chosen
-ERRNOS = {errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG, errno.EMFILE, errno.ENFILE, errno.ENOMEM}
+#: errors of the machine, whatever was asked; any other at the start is a folder that was badly
+#: chosen
+ERRNOS = {
+    errno.ENOSPC,
+    errno.EDQUOT,
+    errno.EIO,
+    errno.EFBIG,
+    errno.EMFILE,
+    errno.ENFILE,
+    errno.ENOMEM,
+}
 
 
 class MachineError(RuntimeError):
-    """The machine failed (a full or failing disk, no memory, killed processes): the run stops and can go on
-    later. The message says what failed and the remedy."""
+    """The machine failed (a full or failing disk, no memory, killed processes): the run stops and
+    can go on later. The message says what failed and the remedy.
+    """

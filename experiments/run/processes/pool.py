@@ -1,20 +1,33 @@
-"""Work in processes that may die: a crash or a hang costs the one item it happened at, and a fault of the machine none."""
+"""Work in processes that may die: a crash or a hang costs the one item it happened at, and a fault
+of the machine none.
+"""
 
 from __future__ import annotations
 
 import random
 import signal
 from collections import deque
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Callable, Sequence
+from typing import Any
 
 from .crew import RESUME, Crew, Worker
 from .limits import limit, mark
 from .machine import MachineError
 from .worker import NO_CHANNEL, NO_MEMORY
 
-__all__ = ["Instead", "Loss", "MachineError", "Task", "WorkerError", "limit", "mark", "mixed", "run"]
+__all__ = [
+    "Instead",
+    "Loss",
+    "MachineError",
+    "Task",
+    "WorkerError",
+    "limit",
+    "mark",
+    "mixed",
+    "run",
+]
 
 MEMORY = 2 << 30  # bytes after which a worker is replaced; twice as many it cannot have
 TRIES = 6  # of one item that ends its process in a new way each time
@@ -27,7 +40,9 @@ class WorkerError(RuntimeError):
 
 @dataclass(frozen=True)
 class Loss:
-    """How an item was lost. status: "timeout" or "error". detail: in words. mark: what limits.mark said last."""
+    """How an item was lost. status: "timeout" or "error". detail: in words. mark: what limits.mark
+    said last.
+    """
 
     status: str
     detail: str
@@ -43,10 +58,11 @@ class Instead:
 
 @dataclass(frozen=True)
 class Task:
-    """One worker process: open(argument) gives a function, which is then called with each item in turn.
+    """One worker process: open(argument) gives a function, which is then called with each item in
+    turn.
 
-    done(results): called in the parent with one result per item, in order. lost(item, loss): makes the result of an item that
-    ended its process, or an Instead.
+    done(results): called in the parent with one result per item, in order. lost(item, loss): makes
+    the result of an item that ended its process, or an Instead.
     """
 
     open: Callable[[Any], Callable[[Any], Any]]
@@ -58,8 +74,9 @@ class Task:
 
 @dataclass
 class _Job:
-    """A task on its way. stage: "run" (all items that are left), "control", or "alone" (the next item). fates: how the
-    processes of the next item ended."""
+    """A task on its way. stage: "run" (all items that are left), "control", or "alone" (the next
+    item). fates: how the processes of the next item ended.
+    """
 
     task: Task
     items: list[Any]
@@ -69,7 +86,9 @@ class _Job:
 
     @property
     def undisturbed(self) -> bool:
-        """Nothing else of ours shall run beside it: memory, or the processor, may have been what ended the last one."""
+        """Nothing else of ours shall run beside it: memory, or the processor, may have been what
+        ended the last one.
+        """
         return self.stage != "run" and self.fates[-1].detail in _OUTSIDE
 
     def settle(self, result: Any) -> None:
@@ -83,23 +102,34 @@ class _Job:
 
 
 def mixed(tasks: Sequence[Task]) -> list[Task]:
-    """The tasks in an order drawn once for all: slow ones are spread over the stage, so that its beginning tells how long it will take."""
+    """The tasks in an order drawn once for all: slow ones are spread over the stage, so that its
+    beginning tells how long it will take.
+    """
     return random.Random(0).sample(list(tasks), len(tasks))
 
 
-def run(tasks: Sequence[Task], workers: int, seconds: float, log: Path, advance: Callable[[int], None] = lambda n: None,
-        prepare: Callable[[], None] | None = None, memory: int = MEMORY) -> None:
-    """Run all tasks, each in a fresh process, `workers` at a time. seconds: of processor time for one item (see limits). log: what
-    processes print. prepare: called first in each process. memory: bytes after which a worker is replaced; twice as many it cannot
-    have. ValueError where a worker met bad input, WorkerError with its traceback where our own code fails, MachineError where the
+def run(
+    tasks: Sequence[Task],
+    workers: int,
+    seconds: float,
+    log: Path,
+    advance: Callable[[int], None] = lambda n: None,
+    prepare: Callable[[], None] | None = None,
+    memory: int = MEMORY,
+) -> None:
+    """Run all tasks, each in a fresh process, `workers` at a time. seconds: of processor time for
+    one item (see limits). log: what processes print. prepare: called first in each process. memory:
+    bytes after which a worker is replaced; twice as many it cannot have. ValueError where a worker
+    met bad input, WorkerError with its traceback where our own code fails, MachineError where the
     machine does.
 
-    An item whose process dies, or passes the deadline, is asked again alone in a fresh process, after a trivial one that must
-    succeed. Only the same death twice makes it lost. A limit of processor time needs no second try.
-    A fresh process for each task makes results independent of the number of workers: what an engine leaves in its memory
-    is seen by the later items of the same task alone. No pool of a library does this: loky and concurrent.futures break as a
-    whole when a worker dies; pebble names the task a worker died at, but broke too when one died between tasks, in its
-    engine's destructors, as some do.
+    An item whose process dies, or passes the deadline, is asked again alone in a fresh process,
+    after a trivial one that must succeed. Only the same death twice makes it lost. A limit of
+    processor time needs no second try. A fresh process for each task makes results independent of
+    the number of workers: what an engine leaves in its memory is seen by the later items of the
+    same task alone. No pool of a library does this: loky and concurrent.futures break as a whole
+    when a worker dies; pebble names the task a worker died at, but broke too when one died between
+    tasks, in its engine's destructors, as some do.
     """
     queue = deque(_Job(task, list(task.items)) for task in tasks)
     with Crew(log) as crew:
@@ -127,7 +157,14 @@ def _payload(job: _Job, prepare, seconds: float, memory: int) -> tuple:
     if job.stage == "control":
         return None, _control, None, [2], seconds, memory
     left = job.items[len(job.results) :]
-    return prepare, job.task.open, job.task.argument, left if job.stage == "run" else left[:1], seconds, memory
+    return (
+        prepare,
+        job.task.open,
+        job.task.argument,
+        left if job.stage == "run" else left[:1],
+        seconds,
+        memory,
+    )
 
 
 def _control(_) -> Callable[[int], int]:
@@ -165,8 +202,10 @@ def _said(worker: Worker) -> list[Any]:
 
 def _judge_control(job: _Job, succeeded: bool, worker: Worker, code: int) -> None:
     if not succeeded:
-        raise MachineError(f"A process died ({job.fates[-1].detail}), and so did the next one, which was asked something trivial "
-                           f"({_fate(worker, code).detail}): it is the machine. {RESUME}")
+        raise MachineError(
+            f"A process died ({job.fates[-1].detail}), and so did the next one, which was asked"
+            f" something trivial ({_fate(worker, code).detail}): it is the machine. {RESUME}"
+        )
     job.stage = "alone"
 
 
@@ -177,7 +216,11 @@ _OUTSIDE = (_DEADLINE, "SIGKILL", "SIGTERM", "SIGINT", "SIGHUP", "SIGBUS", CODES
 def _fate(worker: Worker, code: int) -> Loss:
     """How a process ended, for the item that it was at."""
     told = worker.page_mark
-    if worker.ended_for == "timeout" and worker.ended_at == worker.page_number or code == -signal.SIGPROF:
+    if (
+        worker.ended_for == "timeout"
+        and worker.ended_at == worker.page_number
+        or code == -signal.SIGPROF
+    ):
         return Loss("timeout", "the limit for one item ran out", told)
     if worker.ended_for:
         return Loss("timeout", _DEADLINE, told)
@@ -202,7 +245,9 @@ def _died(job: _Job, fate: Loss) -> None:
         job.settle(job.task.lost(item, Loss(fate.status, _twice(fate.detail), fate.mark)))
     elif len(job.fates) + 1 == TRIES:
         ends = ", ".join(f.detail for f in (*job.fates, fate))
-        raise MachineError(f"One item ended its process in another way each time it was tried ({ends}). {RESUME}")
+        raise MachineError(
+            f"One item ended its process in another way each time it was tried ({ends}). {RESUME}"
+        )
     else:
         job.fates.append(fate)
         job.stage = "control"

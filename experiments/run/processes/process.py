@@ -1,4 +1,6 @@
-"""What Linux offers to leave no process behind: signals at a parent's death, and adoption of orphans."""
+"""What Linux offers to leave no process behind: signals at a parent's death, and adoption of
+orphans.
+"""
 
 from __future__ import annotations
 
@@ -30,11 +32,14 @@ def kill_group(leader: int) -> None:
 
 
 def kill_children(variable: str = "", value: str = "") -> None:
-    """End every child, and what is adopted in their place, until none is left; then none is a zombie either.
+    """End every child, and what is adopted in their place, until none is left; then none is a
+    zombie either.
 
     variable, value: only those in whose environment this was set.
     """
-    while found := [c for c in psutil.Process().children() if not variable or _has(c, variable, value)]:
+    while found := [
+        c for c in psutil.Process().children() if not variable or _has(c, variable, value)
+    ]:
         for child in found:
             with contextlib.suppress(ProcessLookupError, PermissionError):
                 os.kill(child.pid, signal.SIGKILL)

@@ -1,4 +1,6 @@
-"""What one worker process does: it opens a task, asks its items in turn, and sends each result at once."""
+"""What one worker process does: it opens a task, asks its items in turn, and sends each result at
+once.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ LENGTH = struct.Struct("=Q")  # before each pickled frame (kind, value)
 
 
 class Channel:
-    """The pipe to the runner. A child that a method forked off, and that returns to us, says nothing in it."""
+    """The pipe to the runner. A child that a method forked off, and that returns to us, says
+    nothing in it.
+    """
 
     def __init__(self, fd: int):
         self.fd, self.owner = fd, os.getpid()
@@ -78,7 +82,9 @@ def _ask(payload: int, channel: Channel) -> None:
 
 
 def _bound(memory: int) -> None:
-    """An allocation past twice the memory at which a worker is replaced fails, as MemoryError or bad_alloc."""
+    """An allocation past twice the memory at which a worker is replaced fails, as MemoryError or
+    bad_alloc.
+    """
     hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
     most = 2 * memory if hard == resource.RLIM_INFINITY else min(2 * memory, hard)
     resource.setrlimit(resource.RLIMIT_DATA, (most, most))

@@ -7,17 +7,31 @@ from dataclasses import dataclass
 
 import numpy as np
 
-TRAVELS = (0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)  #: per step, in thicknesses of the obstacle
+#: per step, in thicknesses of the obstacle
+TRAVELS = (
+    0.05,
+    0.1,
+    0.25,
+    0.5,
+    1.0,
+    2.0,
+    5.0,
+    10.0,
+    20.0,
+    50.0,
+    100.0,
+)
 
 
 @dataclass(frozen=True)
 class Scene:
     """A free body without gravity, and a fixed box about the origin or, for a rod, on its circle.
 
-    mover: "ball" or "box". half: half-extents of the mover (a ball's radius thrice). obstacle: half-extents of the fixed box.
-    thickness: of the obstacle along the path: the unit of travel.
-    reach: 0 for a body that flies along x at a wall; else the mover turns about z, and the obstacle stands at x = reach.
-    contact: progress before which mover and obstacle cannot touch. Progress is the centre's x, or the angle; the obstacle is at 0.
+    mover: "ball" or "box". half: half-extents of the mover (a ball's radius thrice). obstacle:
+    half-extents of the fixed box. thickness: of the obstacle along the path: the unit of travel.
+    reach: 0 for a body that flies along x at a wall; else the mover turns about z, and the obstacle
+    stands at x = reach. contact: progress before which mover and obstacle cannot touch. Progress is
+    the centre's x, or the angle; the obstacle is at 0.
     """
 
     name: str
@@ -37,11 +51,15 @@ class Scene:
         return travel * self.thickness / (self.reach or 1.0)
 
     def start(self, travel: float, phase: float) -> float:
-        """Progress at the start: a free step and a random part of a second before contact is possible."""
+        """Progress at the start: a free step and a random part of a second before contact is
+        possible.
+        """
         return -self.contact - (1 + phase) * self.per_step(travel)
 
     def steps(self, travel: float, cap: float = math.inf) -> int:
-        """Steps after which an unhindered mover is past the obstacle, and three more. cap: the most an engine turns a body per step."""
+        """Steps after which an unhindered mover is past the obstacle, and three more. cap: the most
+        an engine turns a body per step.
+        """
         step = min(self.per_step(travel), cap) if self.turns else self.per_step(travel)
         return math.ceil((2 * self.contact + 3 * self.per_step(travel)) / step) + 3
 
@@ -50,12 +68,14 @@ WALL = (0.01, 2.0, 2.0)
 SCENES = (
     Scene("ball at a wall", "ball", (0.1, 0.1, 0.1), WALL, 0.02, 0.11 + 1e-3),
     Scene("box at a wall", "box", (0.1, 0.1, 0.1), WALL, 0.02, 0.1 * math.sqrt(3) + 0.01 + 1e-3),
-    # 100 thicknesses are 1.25 rad, so that a turn is never mistaken for another and no rod starts with its other end at the post. Its
-    # half-thickness is 0.01 and the post's corner 0.0035 off the post's middle: they meet at 0.034 rad.
+    # 100 thicknesses are 1.25 rad, so that a turn is never mistaken for another and no rod starts
+    # with its other end at the post. Its half-thickness is 0.01 and the post's corner 0.0035 off
+    # the post's middle: they meet at 0.034 rad.
     Scene("rod at a post", "box", (0.5, 0.01, 0.05), (0.0025, 0.0025, 0.5), 0.005, 0.04, reach=0.4),
 )
 
-#: A rod's inertia is made small against its mass, so that a hit stops its turn instead of pushing it off the post.
+#: A rod's inertia is made small against its mass, so that a hit stops its turn instead of pushing
+#: it off the post.
 ROD_INERTIA = 1e-3
 
 

@@ -1,6 +1,7 @@
 """One scene in one engine: made, stepped, and looked at.
 
-A world has `dt` (the engine's own default), `step()`, `progress()` and `rate()` (progress per second, as the engine has it).
+A world has `dt` (the engine's own default), `step()`, `progress()` and `rate()` (progress per
+second, as the engine has it).
 """
 
 from __future__ import annotations
@@ -24,28 +25,61 @@ class World(Protocol):
 
 
 class BulletWorld:
-    """pybullet: maximal: rigid bodies instead of the default multibodies. ccd: ccdSweptSphereRadius, as a share of the least half-extent."""
+    """pybullet: maximal: rigid bodies instead of the default multibodies. ccd:
+    ccdSweptSphereRadius, as a share of the least half-extent.
+    """
 
     engine = "pybullet"
     dt = 1 / 240
     cap = math.pi / 4  # Bullet turns no body farther in a step
 
-    def __init__(self, scene: Scene, rate: float, start: float, attitude: np.ndarray, maximal: bool = False, ccd: float = 0.0):
+    def __init__(
+        self,
+        scene: Scene,
+        rate: float,
+        start: float,
+        attitude: np.ndarray,
+        maximal: bool = False,
+        ccd: float = 0.0,
+    ):
         self.bullet, self.client = p, c = _client()
         p.resetSimulation(physicsClientId=c)
         p.setTimeStep(self.dt, physicsClientId=c)
-        shape = {"shapeType": p.GEOM_SPHERE, "radius": scene.half[0]} if scene.mover == "ball" else {"shapeType": p.GEOM_BOX, "halfExtents": scene.half}
+        shape = (
+            {"shapeType": p.GEOM_SPHERE, "radius": scene.half[0]}
+            if scene.mover == "ball"
+            else {"shapeType": p.GEOM_BOX, "halfExtents": scene.half}
+        )
         mover = p.createCollisionShape(**shape, physicsClientId=c)
         fixed = p.createCollisionShape(p.GEOM_BOX, halfExtents=scene.obstacle, physicsClientId=c)
-        p.createMultiBody(0, fixed, basePosition=[scene.reach, 0, 0], useMaximalCoordinates=maximal, physicsClientId=c)
+        p.createMultiBody(
+            0,
+            fixed,
+            basePosition=[scene.reach, 0, 0],
+            useMaximalCoordinates=maximal,
+            physicsClientId=c,
+        )
         position, turn, velocity, spin = _initial(scene, rate, start, attitude)
         self.turns = scene.turns
-        self.body = b = p.createMultiBody(1, mover, basePosition=position, baseOrientation=np.roll(turn, -1).tolist(), useMaximalCoordinates=maximal, physicsClientId=c)
-        # Velocities above 100 are clipped unless maxJointVelocity is raised, and it has to be raised first.
-        p.changeDynamics(b, -1, linearDamping=0, angularDamping=0, maxJointVelocity=1e9, physicsClientId=c)
+        self.body = b = p.createMultiBody(
+            1,
+            mover,
+            basePosition=position,
+            baseOrientation=np.roll(turn, -1).tolist(),
+            useMaximalCoordinates=maximal,
+            physicsClientId=c,
+        )
+        # Velocities above 100 are clipped unless maxJointVelocity is raised, and it has to be
+        # raised first.
+        p.changeDynamics(
+            b, -1, linearDamping=0, angularDamping=0, maxJointVelocity=1e9, physicsClientId=c
+        )
         if scene.turns:
-            # Without the mass, a body in maximal coordinates gets mass 0, and its position becomes NaN.
-            p.changeDynamics(b, -1, mass=1, localInertiaDiagonal=[ROD_INERTIA] * 3, physicsClientId=c)
+            # Without the mass, a body in maximal coordinates gets mass 0, and its position becomes
+            # NaN.
+            p.changeDynamics(
+                b, -1, mass=1, localInertiaDiagonal=[ROD_INERTIA] * 3, physicsClientId=c
+            )
         if ccd:
             p.changeDynamics(b, -1, ccdSweptSphereRadius=ccd * min(scene.half), physicsClientId=c)
         p.resetBaseVelocity(b, velocity, spin, physicsClientId=c)
@@ -54,7 +88,9 @@ class BulletWorld:
         self.bullet.stepSimulation(physicsClientId=self.client)
 
     def progress(self) -> float:
-        position, (x, y, z, w) = self.bullet.getBasePositionAndOrientation(self.body, physicsClientId=self.client)
+        position, (x, y, z, w) = self.bullet.getBasePositionAndOrientation(
+            self.body, physicsClientId=self.client
+        )
         return _angle((w, x, y, z)) if self.turns else position[0]
 
     def rate(self) -> float:
@@ -63,14 +99,24 @@ class BulletWorld:
 
 
 class MujocoWorld:
-    """margin: of both geoms. speculative: mjENBL_SPECULATIVE. stiff: solref of two time steps, the least that MuJoCo takes."""
+    """margin: of both geoms. speculative: mjENBL_SPECULATIVE. stiff: solref of two time steps, the
+    least that MuJoCo takes.
+    """
 
     engine = "mujoco"
     dt = 0.002
     cap = math.inf
 
-    def __init__(self, scene: Scene, rate: float, start: float, attitude: np.ndarray, margin: float = 0.0, speculative: bool = False,
-                 stiff: bool = False):
+    def __init__(
+        self,
+        scene: Scene,
+        rate: float,
+        start: float,
+        attitude: np.ndarray,
+        margin: float = 0.0,
+        speculative: bool = False,
+        stiff: bool = False,
+    ):
         import mujoco
 
         self.mujoco, self.turns = mujoco, scene.turns
@@ -79,12 +125,24 @@ class MujocoWorld:
         if speculative:
             spec.option.enableflags |= mujoco.mjtEnableBit.mjENBL_SPECULATIVE
         box = mujoco.mjtGeom.mjGEOM_BOX
-        spec.worldbody.add_geom(type=box, size=scene.obstacle, pos=[scene.reach, 0, 0], margin=margin)
+        spec.worldbody.add_geom(
+            type=box, size=scene.obstacle, pos=[scene.reach, 0, 0], margin=margin
+        )
         body = spec.worldbody.add_body()
         body.add_freejoint()
-        body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE if scene.mover == "ball" else box, size=scene.half, margin=margin, mass=1)
+        body.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_SPHERE if scene.mover == "ball" else box,
+            size=scene.half,
+            margin=margin,
+            mass=1,
+        )
         if scene.turns:
-            body.explicitinertial, body.mass, body.inertia, body.ipos = True, 1, [ROD_INERTIA] * 3, [0, 0, 0]
+            body.explicitinertial, body.mass, body.inertia, body.ipos = (
+                True,
+                1,
+                [ROD_INERTIA] * 3,
+                [0, 0, 0],
+            )
         self.model = spec.compile()
         if stiff:
             self.model.geom_solref[:] = 2 * self.dt, 1
@@ -110,7 +168,15 @@ class RapierWorld:
     dt = 1 / 60
     cap = math.inf
 
-    def __init__(self, scene: Scene, rate: float, start: float, attitude: np.ndarray, ccd: bool = False, soft: float = 0.0):
+    def __init__(
+        self,
+        scene: Scene,
+        rate: float,
+        start: float,
+        attitude: np.ndarray,
+        ccd: bool = False,
+        soft: float = 0.0,
+    ):
         import rapier3d as rapier
 
         self.turns = scene.turns
@@ -122,7 +188,11 @@ class RapierWorld:
         world.add_collider(rapier.Collider.cuboid(*scene.obstacle), fixed)
         self.handle = world.add_body(rapier.RigidBody.dynamic())
         density = 1 / (8 * math.prod(scene.half))
-        collider = rapier.Collider.ball(scene.half[0]) if scene.mover == "ball" else rapier.Collider.cuboid(*scene.half)
+        collider = (
+            rapier.Collider.ball(scene.half[0])
+            if scene.mover == "ball"
+            else rapier.Collider.cuboid(*scene.half)
+        )
         world.add_collider(collider.density(0.0 if scene.turns else density), self.handle)
         position, turn, velocity, spin = _initial(scene, rate, start, attitude)
         body = self.body
@@ -155,7 +225,9 @@ class RapierWorld:
 
 
 class KinematicWorld:
-    """A plain loop: the body moves freely until the method says that the next step meets the obstacle, and stops there."""
+    """A plain loop: the body moves freely until the method says that the next step meets the
+    obstacle, and stops there.
+    """
 
     dt = 1.0
     cap = math.inf
@@ -169,11 +241,19 @@ class KinematicWorld:
         self.queue = []
 
     def prepare(self, steps: int) -> None:
-        """All queries of an unhindered run: what is built once per body is not the cost of a step."""
+        """All queries of an unhindered run: what is built once per body is not the cost of a
+        step.
+        """
         scene, still = self.scene, Pose(position=(self.scene.reach, 0, 0))
-        question, motion = ("motion", Motion(axis=(0, 0, 1), angle=self.speed)) if scene.turns else ("translation", Motion((self.speed, 0, 0)))
+        question, motion = (
+            ("motion", Motion(axis=(0, 0, 1), angle=self.speed))
+            if scene.turns
+            else ("translation", Motion((self.speed, 0, 0)))
+        )
         for i in range(steps):
-            position, turn, _, _ = _initial(scene, self.speed, self.at + i * self.speed, self.attitude)
+            position, turn, _, _ = _initial(
+                scene, self.speed, self.at + i * self.speed, self.attitude
+            )
             at = Pose(turn, position)
             query = Query(question, self.mover, self.obstacle, at, still, motion)
             self.queue.append(self.method.ready(query))
@@ -196,10 +276,17 @@ class KinematicWorld:
         return self.speed
 
 
-def _initial(scene: Scene, rate: float, start: float, attitude: np.ndarray) -> tuple[list, list, list, list]:
+def _initial(
+    scene: Scene, rate: float, start: float, attitude: np.ndarray
+) -> tuple[list, list, list, list]:
     """Position, attitude (w, x, y, z), velocity and spin at this progress."""
     if scene.turns:
-        return [0.0, 0.0, 0.0], [math.cos(start / 2), 0.0, 0.0, math.sin(start / 2)], [0.0, 0.0, 0.0], [0.0, 0.0, rate]
+        return (
+            [0.0, 0.0, 0.0],
+            [math.cos(start / 2), 0.0, 0.0, math.sin(start / 2)],
+            [0.0, 0.0, 0.0],
+            [0.0, 0.0, rate],
+        )
     return [start, 0.0, 0.0], attitude.tolist(), [rate, 0.0, 0.0], [0.0, 0.0, 0.0]
 
 

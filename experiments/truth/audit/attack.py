@@ -1,10 +1,12 @@
-"""`python -m experiments.truth.audit.attack`: thousands of corrupted certificates against the checker.
+"""`python -m experiments.truth.audit.attack`: thousands of corrupted certificates against the
+checker.
 
-Each mutation either makes a claim false (and must be refused), or weakens the evidence of a claim that stays true (and may
-be accepted where what is left still proves it: "redundant"). False claims are made false by construction: a plane stretched
-past the impact, a witness put where the bodies are apart, a label flipped. For weakened evidence an acceptance is counted as
-shown redundant only if the same mutated certificate also verifies with balls alone, without the doubles' filter (of bodies
-with more than 400 faces together: not asked, because slow).
+Each mutation either makes a claim false (and must be refused), or weakens the evidence of a claim
+that stays true (and may be accepted where what is left still proves it: "redundant"). False claims
+are made false by construction: a plane stretched past the impact, a witness put where the bodies
+are apart, a label flipped. For weakened evidence an acceptance is counted as shown redundant only
+if the same mutated certificate also verifies with balls alone, without the doubles' filter (of
+bodies with more than 400 faces together: not asked, because slow).
 """
 
 from __future__ import annotations
@@ -18,7 +20,6 @@ from fractions import Fraction
 import numpy as np
 
 from experiments.cases import families
-
 from experiments.truth import check_many, label_many
 from experiments.truth.check.checker import FRAMES
 
@@ -32,8 +33,16 @@ def mutations(rng, query, truth):
         return
     flipped = {"hit": "clear", "clear": "hit"}[truth.label]
     nan = float("nan")
-    times = {"t_lo": nan, "t_hi": nan} if flipped == "clear" or query.question == "overlap" else {"t_lo": 0.0, "t_hi": 0.0}
-    yield "label flipped", FALSE, replace(truth, label=flipped, start=flipped, end=flipped, gap=0.0, **times)
+    times = (
+        {"t_lo": nan, "t_hi": nan}
+        if flipped == "clear" or query.question == "overlap"
+        else {"t_lo": 0.0, "t_hi": 0.0}
+    )
+    yield (
+        "label flipped",
+        FALSE,
+        replace(truth, label=flipped, start=flipped, end=flipped, gap=0.0, **times),
+    )
     yield "certificate dropped", FALSE, replace(truth, certificate={})
     if not truth.touching:
         yield "touching without a witness", FALSE, replace(truth, touching=True)
@@ -41,69 +50,153 @@ def mutations(rng, query, truth):
         yield "witness without its tag", FALSE, replace(truth, touching=False)
         for side in "ab":
             moved = copy.deepcopy(c["touching"])
-            moved[side]["weights"][0] = str(Fraction(moved[side]["weights"][0]) + Fraction(1, 10**30))
-            yield "touching weights off by 1e-30", FALSE, replace(truth, certificate={**c, "touching": moved})
+            moved[side]["weights"][0] = str(
+                Fraction(moved[side]["weights"][0]) + Fraction(1, 10**30)
+            )
+            yield (
+                "touching weights off by 1e-30",
+                FALSE,
+                replace(truth, certificate={**c, "touching": moved}),
+            )
     if truth.gap > 0:
-        yield "gap times 20", FALSE, replace(truth, gap=truth.gap * 20)  # the prover claims a tenth of the distance or more
+        # the prover claims a tenth of the distance or more
+        yield (
+            "gap times 20",
+            FALSE,
+            replace(truth, gap=truth.gap * 20),
+        )
     if truth.label == "hit" and query.question != "overlap" and truth.start == "clear":
         later = truth.t_hi + (1 - truth.t_hi) * 10 ** rng.uniform(-9, -1)
         stretched = _edit(c, "clear", lambda tree: _last(tree, later))
         if truth.t_hi < later < 1:
-            yield "separation stretched past the impact", FALSE, replace(truth, t_lo=later, t_hi=later, certificate=stretched)
-            yield "bracket moved late", FALSE, replace(truth, t_lo=later, t_hi=max(later, truth.t_hi))
+            yield (
+                "separation stretched past the impact",
+                FALSE,
+                replace(truth, t_lo=later, t_hi=later, certificate=stretched),
+            )
+            yield (
+                "bracket moved late",
+                FALSE,
+                replace(truth, t_lo=later, t_hi=max(later, truth.t_hi)),
+            )
         yield "witness before the impact", FALSE, replace(truth, t_hi=truth.t_lo)
         earlier = truth.t_lo * (1 - 10 ** rng.uniform(-9, -1))
         yield "bracket moved early", FALSE, replace(truth, t_lo=earlier, t_hi=earlier)
         yield "start forged", FALSE, replace(truth, start="hit", t_lo=0.0, t_hi=0.0)
         if truth.end != "uncertain":
-            yield "end flipped", FALSE, replace(truth, end={"hit": "clear", "clear": "hit"}[truth.end])
+            yield (
+                "end flipped",
+                FALSE,
+                replace(truth, end={"hit": "clear", "clear": "hit"}[truth.end]),
+            )
         if "exact" in c:
             exact = copy.deepcopy(c["exact"])
-            exact["time"] = str(Fraction(exact["time"]) + Fraction(int(rng.choice([-1, 1])), 10**40))
-            yield "exact time off by 1e-40", FALSE, replace(truth, certificate={**c, "exact": exact})
+            exact["time"] = str(
+                Fraction(exact["time"]) + Fraction(int(rng.choice([-1, 1])), 10**40)
+            )
+            yield (
+                "exact time off by 1e-40",
+                FALSE,
+                replace(truth, certificate={**c, "exact": exact}),
+            )
             exact = copy.deepcopy(c["exact"])
             exact["a"]["weights"][0] = str(Fraction(exact["a"]["weights"][0]) + Fraction(1, 10**30))
-            yield "exact weights off by 1e-30", FALSE, replace(truth, certificate={**c, "exact": exact})
+            yield (
+                "exact weights off by 1e-30",
+                FALSE,
+                replace(truth, certificate={**c, "exact": exact}),
+            )
     for key in ("hit", "end_hit"):
         if key not in c:
             continue
         away = float(query.a.size + query.b.size) * rng.choice([-1, 1], 3)
-        point = [str(Fraction(str(x) if isinstance(x, str) else x) + Fraction(float(d))) for x, d in zip(c[key]["point"], away)]
-        yield "witness moved away", FALSE, replace(truth, certificate={**c, key: {**c[key], "point": point}})
+        point = [
+            str(Fraction(str(x) if isinstance(x, str) else x) + Fraction(float(d)))
+            for x, d in zip(c[key]["point"], away)
+        ]
+        yield (
+            "witness moved away",
+            FALSE,
+            replace(truth, certificate={**c, key: {**c[key], "point": point}}),
+        )
         size = min(query.a.size, query.b.size) * 10 ** rng.uniform(-6, 0)
         point = [
             str(Fraction(str(x) if isinstance(x, str) else x) + Fraction(float(d)))
             for x, d in zip(point, rng.normal(size=3) * size - away)
         ]
-        yield "witness moved a little", WEAKER, replace(truth, certificate={**c, key: {**c[key], "point": point}})
+        yield (
+            "witness moved a little",
+            WEAKER,
+            replace(truth, certificate={**c, key: {**c[key], "point": point}}),
+        )
         side = rng.choice(["a", "b"])
         if c[key][side] is not None:
             where = list(c[key][side])
             where[1 + rng.integers(4)] = where[1 + rng.integers(4)]
             if len(set(where[1:])) < 4:
-                yield "tetrahedron flattened", FALSE, replace(truth, certificate={**c, key: {**c[key], side: where}})
+                yield (
+                    "tetrahedron flattened",
+                    FALSE,
+                    replace(truth, certificate={**c, key: {**c[key], side: where}}),
+                )
             body = query.a if side == "a" else query.b
-            where = [where[0], *rng.choice(len(body.pieces[where[0]].vertices), 4, replace=False).tolist()]
-            yield "tetrahedron exchanged", WEAKER, replace(truth, certificate={**c, key: {**c[key], side: where}})
+            where = [
+                where[0],
+                *rng.choice(len(body.pieces[where[0]].vertices), 4, replace=False).tolist(),
+            ]
+            yield (
+                "tetrahedron exchanged",
+                WEAKER,
+                replace(truth, certificate={**c, key: {**c[key], side: where}}),
+            )
     for key in ("clear", "end_clear"):
         if key not in c:
             continue
         nodes = _nodes(c[key]["tree"])
-        yield "plane reversed", FALSE, replace(truth, certificate=_edit(c, key, lambda tree: _tilt(rng, tree, None)))
-        yield "plane tilted", WEAKER, replace(
-            truth, certificate=_edit(c, key, lambda tree: _tilt(rng, tree, 10 ** rng.uniform(-4, 0)))
+        yield (
+            "plane reversed",
+            FALSE,
+            replace(truth, certificate=_edit(c, key, lambda tree: _tilt(rng, tree, None))),
+        )
+        yield (
+            "plane tilted",
+            WEAKER,
+            replace(
+                truth,
+                certificate=_edit(c, key, lambda tree: _tilt(rng, tree, 10 ** rng.uniform(-4, 0))),
+            ),
         )
         if any(len(n[0]) for n in nodes):
-            yield "segment dropped", WEAKER, replace(truth, certificate=_edit(c, key, lambda tree: _drop_segment(rng, tree)))
-            yield "frame exchanged", WEAKER, replace(truth, certificate=_edit(c, key, lambda tree: _reframe(rng, tree)))
+            yield (
+                "segment dropped",
+                WEAKER,
+                replace(truth, certificate=_edit(c, key, lambda tree: _drop_segment(rng, tree))),
+            )
+            yield (
+                "frame exchanged",
+                WEAKER,
+                replace(truth, certificate=_edit(c, key, lambda tree: _reframe(rng, tree))),
+            )
         if any(n[1] for n in nodes):
-            yield "child dropped", FALSE, replace(truth, certificate=_edit(c, key, lambda tree: _drop_child(rng, tree)))
-            yield "cut moved", WEAKER, replace(truth, certificate=_edit(c, key, lambda tree: _move_cut(rng, tree)))
+            yield (
+                "child dropped",
+                FALSE,
+                replace(truth, certificate=_edit(c, key, lambda tree: _drop_child(rng, tree))),
+            )
+            yield (
+                "cut moved",
+                WEAKER,
+                replace(truth, certificate=_edit(c, key, lambda tree: _move_cut(rng, tree))),
+            )
         for order in ("order_a", "order_b"):
             if order in c[key]:
                 doubled = list(c[key][order])
                 doubled[0] = doubled[-1]
-                yield "element left out", FALSE, replace(truth, certificate={**c, key: {**c[key], order: doubled}})
+                yield (
+                    "element left out",
+                    FALSE,
+                    replace(truth, certificate={**c, key: {**c[key], order: doubled}}),
+                )
 
 
 def _edit(c, key, change):
@@ -182,15 +275,17 @@ def campaign(cases: int, seed: int, names=None):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--cases", type=int, default=12, help="cases per level of every scenario")
     parser.add_argument("--seed", type=int, default=99)
     args = parser.parse_args()
     counts, wrong = campaign(args.cases, args.seed)
     for name, c in sorted(counts.items()):
         print(
-            f"{name:40s} {sum(c.values()):6d}  refused {c['refused']:6d}  redundant {c['redundant']:5d}  "
-            f"accepted wrongly {c['ACCEPTED']}"
+            f"{name:40s} {sum(c.values()):6d}  refused {c['refused']:6d}  redundant"
+            f" {c['redundant']:5d}  accepted wrongly {c['ACCEPTED']}"
         )
     print(f"{sum(sum(c.values()) for c in counts.values())} mutations")
     print("\n".join(wrong) or "none was accepted wrongly")

@@ -1,9 +1,12 @@
-"""`python -m experiments.truth.audit.bench`: certified labels a second on the mix of a preset (default: standard, else quick).
+"""`python -m experiments.truth.audit.bench`: certified labels a second on the mix of a preset
+(default: standard, else quick).
 
-A label here is everything but drawing the case: preparing its bodies, proving, building the certificate, and checking it. The
-cases are labelled in chunks, as a run does it, by as many processes as asked for (default 2), each timed over all its chunks;
-labels a second is the sum over processes. Processor seconds count, and of each chunk the fastest of --rounds rounds, so that
-a busy machine disturbs less; bodies are prepared afresh in each. Cases whose label is "uncertain" count as labelled and are shown.
+A label here is everything but drawing the case: preparing its bodies, proving, building the
+certificate, and checking it. The cases are labelled in chunks, as a run does it, by as many
+processes as asked for (default 2), each timed over all its chunks; labels a second is the sum over
+processes. Processor seconds count, and of each chunk the fastest of --rounds rounds, so that a busy
+machine disturbs less; bodies are prepared afresh in each. Cases whose label is "uncertain" count as
+labelled and are shown.
 """
 
 from __future__ import annotations
@@ -18,7 +21,6 @@ from pathlib import Path
 from tabulate import tabulate
 
 from experiments.cases import families
-
 from experiments.truth import check_many, prove
 from experiments.truth.check import geometry
 from experiments.truth.prove import prover
@@ -34,7 +36,10 @@ def draw_cases(preset: str, share: int, shares: int, cases: int | None):
         scenario = families.get(choice["name"])
         for level in choice.get("levels", scenario.levels):
             drawn += [(scenario, level, i) for i in range(cases or choice["cases"])]
-    return [(s.name, s.case(config.get("seed", 0), level, i).query) for s, level, i in drawn[share::shares]]
+    return [
+        (s.name, s.case(config.get("seed", 0), level, i).query)
+        for s, level, i in drawn[share::shares]
+    ]
 
 
 def measure(preset: str, share: int, shares: int, cases: int | None, rounds: int):
@@ -65,14 +70,21 @@ def measure(preset: str, share: int, shares: int, cases: int | None, rounds: int
 
 def main():
     known = sorted(p.stem for p in (Path(__file__).parents[2] / "presets").glob("*.toml"))
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--preset", choices=known, default="standard" if "standard" in known else "quick")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--preset", choices=known, default="standard" if "standard" in known else "quick"
+    )
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--cases", type=int, help="cases per level instead of the preset's")
     parser.add_argument("--rounds", type=int, default=3)
     args = parser.parse_args()
     with ProcessPoolExecutor(args.workers) as pool:
-        shares = [pool.submit(measure, args.preset, i, args.workers, args.cases, args.rounds) for i in range(args.workers)]
+        shares = [
+            pool.submit(measure, args.preset, i, args.workers, args.cases, args.rounds)
+            for i in range(args.workers)
+        ]
         results = [share.result() for share in shares]
     table, total = [], defaultdict(lambda: [0, 0.0, 0.0, 0.0])
     for key in sorted(set().union(*results), key=lambda k: (k[1], k[0])):
@@ -97,7 +109,17 @@ def main():
     print(
         tabulate(
             table,
-            ["scenario", "question", "labels", "prove ms", "check ms", "hit", "clear", "uncertain", "refused"],
+            [
+                "scenario",
+                "question",
+                "labels",
+                "prove ms",
+                "check ms",
+                "hit",
+                "clear",
+                "uncertain",
+                "refused",
+            ],
             floatfmt=".3f",
         )
     )
@@ -106,9 +128,9 @@ def main():
         if n:
             rate = args.workers * n / (proving + checking)
             print(
-                f"{group}: {rate:,.0f} labels/s on {args.workers} processes (goal {target:,}); prove {1e3 * proving / n:.3f} ms "
-                f"+ check {1e3 * checking / n:.3f} ms. Included: preparing bodies, proving, certificate, check. "
-                "Not included: drawing the case."
+                f"{group}: {rate:,.0f} labels/s on {args.workers} processes (goal {target:,});"
+                f" prove {1e3 * proving / n:.3f} ms + check {1e3 * checking / n:.3f} ms. Included:"
+                " preparing bodies, proving, certificate, check. Not included: drawing the case."
             )
 
 

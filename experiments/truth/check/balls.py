@@ -1,4 +1,6 @@
-"""Exact and ball arithmetic of three-vectors for the checker: rationals (fmpq) as long as nothing turns, then balls (arb)."""
+"""Exact and ball arithmetic of three-vectors for the checker: rationals (fmpq) as long as nothing
+turns, then balls (arb).
+"""
 
 from __future__ import annotations
 

@@ -1,9 +1,12 @@
-"""The checker's doubles: settles an obligation only by more than its rounding error, in batches; the rest is left to the balls.
+"""The checker's doubles: settles an obligation only by more than its rounding error, in batches;
+the rest is left to the balls.
 
-Error of n.x(t) in double: at most E = 256 u (1 + |theta_A| + |theta_B|) |n|_1 reach, u = 2**-53, reach >= |v|_1 + |b|_1 +
-|about_A|_1 + |about_B|_1 + |dp|_1 + |d|_1. (Rotation entries 10 u, products and sums of three 6 u, sin and cos of a rounded
-theta t 2 u + 2 u |theta|, a turn about k 40 u and at most two of them, dp, d, t d and v - about rounded once each: together
-below 128 u.) Sums that may have been rounded below 2**-1022 are left to the balls.
+Error of n.x(t) in double: at most E = 256 u (1 + |theta_A| + |theta_B|) |n|_1 reach, u = 2**-53,
+reach >= |v|_1 + |b|_1 +
+|about_A|_1 + |about_B|_1 + |dp|_1 + |d|_1. (Rotation entries 10 u, products and sums of three 6 u,
+sin and cos of a rounded theta t 2 u + 2 u |theta|, a turn about k 40 u and at most two of them, dp,
+d, t d and v - about rounded once each: together below 128 u.) Sums that may have been rounded below
+2**-1022 are left to the balls.
 """
 
 from __future__ import annotations
@@ -19,7 +22,9 @@ UNIT = 2.0**-53
 
 
 def settle(obligations) -> list[tuple]:
-    """(j, vertices, near) for each obligation j that doubles leave open; indices of what is open in it, None for all."""
+    """(j, vertices, near) for each obligation j that doubles leave open; indices of what is open in
+    it, None for all.
+    """
     apart = [(j, o) for j, o in enumerate(obligations) if type(o) is checker.Apart]
     points = [(j, o) for j, o in enumerate(obligations) if type(o) is not checker.Apart]
     with np.errstate(all="ignore"):
@@ -36,7 +41,9 @@ class Side(NamedTuple):
 
     def where(self, here, other: Side) -> Side:
         """This side's rows where `here`, else the other's."""
-        return Side(*(np.where(here.reshape(-1, *[1] * (x.ndim - 1)), x, y) for x, y in zip(self, other)))
+        return Side(
+            *(np.where(here.reshape(-1, *[1] * (x.ndim - 1)), x, y) for x, y in zip(self, other))
+        )
 
     def turned(self, t, v):
         """Rot(k, theta t) v, row by row."""
@@ -48,16 +55,26 @@ class Side(NamedTuple):
 
 
 class Numbers:
-    """The pairs' numbers, a row per obligation: a, b (Side), dp, d (n, 3), reach, swing (n,): 1 + |theta_A| + |theta_B|."""
+    """The pairs' numbers, a row per obligation: a, b (Side), dp, d (n, 3), reach, swing (n,): 1 +
+    |theta_A| + |theta_B|.
+    """
 
     def __init__(self, pairs):
         seen = {}
         index = [seen.setdefault(id(p), len(seen)) for p in pairs]
         rows = np.array([p.row for p in {id(p): p for p in pairs}.values()])
-        ka, kb = (k / np.where(k.any(1), _norm(k), 1.0)[:, None] for k in (rows[:, 14:17], rows[:, 17:20]))
-        self.a = Side(*(x[index] for x in (_rotation(rows[:, 0:4]), rows[:, 20:23], ka, rows[:, 26])))
-        self.b = Side(*(x[index] for x in (_rotation(rows[:, 4:8]), rows[:, 23:26], kb, rows[:, 27])))
-        self.dp, self.d, self.reach = (x[index] for x in (rows[:, 8:11], rows[:, 11:14], rows[:, 28]))
+        ka, kb = (
+            k / np.where(k.any(1), _norm(k), 1.0)[:, None] for k in (rows[:, 14:17], rows[:, 17:20])
+        )
+        self.a = Side(
+            *(x[index] for x in (_rotation(rows[:, 0:4]), rows[:, 20:23], ka, rows[:, 26]))
+        )
+        self.b = Side(
+            *(x[index] for x in (_rotation(rows[:, 4:8]), rows[:, 23:26], kb, rows[:, 27]))
+        )
+        self.dp, self.d, self.reach = (
+            x[index] for x in (rows[:, 8:11], rows[:, 11:14], rows[:, 28])
+        )
         self.swing = 1 + np.abs(self.a.theta) + np.abs(self.b.theta)
 
 
@@ -66,15 +83,27 @@ def _apart(jobs) -> list[tuple]:
         return []
     os = [o for _, o in jobs]
     N = Numbers([o.pair for o in os])
-    n = np.array([o.n if all(type(c) is float for c in o.n) else [nearest_double(c) for c in o.n] for o in os])
+    n = np.array(
+        [
+            o.n if all(type(c) is float for c in o.n) else [nearest_double(c) for c in o.n]
+            for o in os
+        ]
+    )
     s, e, gap = (np.array([getattr(o, name) for o in os]) for name in ("s", "e", "gap"))
     frame = np.array([o.frame for o in os])
-    on_b, fixed = frame == "A", frame == "W"  # Q, the side whose vertices are asked one by one, is B where the plane turns with A
+    # Q, the side whose vertices are asked one by one, is B where the plane turns with A
+    on_b, fixed = (
+        frame == "A",
+        frame == "W",
+    )
     P, Q, sign = N.a.where(on_b, N.b), N.b.where(on_b, N.a), np.where(on_b, 1.0, -1.0)
     error = 256 * UNIT * N.swing * np.abs(n).sum(1) * N.reach
     margin = gap * _norm(n) * (1 + 8 * UNIT) + 2 * error
 
-    Ps, Qs = [o.A if o.frame == "A" else o.B for o in os], [o.B if o.frame == "A" else o.A for o in os]
+    Ps, Qs = (
+        [o.A if o.frame == "A" else o.B for o in os],
+        [o.B if o.frame == "A" else o.A for o in os],
+    )
     p_first, p_of = _rows(Ps)
     q_first, q_of = _rows(Qs)
     ends, keys, tops = [], [], []
@@ -93,21 +122,41 @@ def _apart(jobs) -> list[tuple]:
     low, high = np.minimum(*ends), np.maximum(*ends)
     bend = 0.0
     if (N.swing > 1).any() and (e > s).any():
-        M = _bend(N, P, Q, n, s, e, sign, fixed, (np.concatenate(Ps), p_first, p_of), (np.concatenate(Qs), q_of))
+        M = _bend(
+            N,
+            P,
+            Q,
+            n,
+            s,
+            e,
+            sign,
+            fixed,
+            (np.concatenate(Ps), p_first, p_of),
+            (np.concatenate(Qs), q_of),
+        )
         room = ((N.swing**2) * error)[q_of]
         bend = (M * (1 + 1e-9) + room) * (((e - s) + 4 * UNIT) ** 2 / 2)[q_of]
     sure = (low > 0) & (high + 3 * low > bend) & ((error > 1e-140) & (error < 1e140))[q_of]
     open_ = []
     for i in np.flatnonzero(~np.logical_and.reduceat(sure, q_first)):
-        mine, its = (slice(first[i], first[i] + len(side[i])) for first, side in ((q_first, Qs), (p_first, Ps)))
+        mine, its = (
+            slice(first[i], first[i] + len(side[i]))
+            for first, side in ((q_first, Qs), (p_first, Ps))
+        )
         trusted = 1e-140 < error[i] < 1e140
-        near = np.logical_or.reduce([key[its] >= top[i] - 4 * error[i] for key, top in zip(keys, tops)])
-        open_.append((jobs[i][0], np.flatnonzero(~sure[mine]), np.flatnonzero(near) if trusted else None))
+        near = np.logical_or.reduce(
+            [key[its] >= top[i] - 4 * error[i] for key, top in zip(keys, tops)]
+        )
+        open_.append(
+            (jobs[i][0], np.flatnonzero(~sure[mine]), np.flatnonzero(near) if trusted else None)
+        )
     return open_
 
 
 def _bend(N, P, Q, n, s, e, sign, fixed, of_p, of_q):  # noqa: PLR0913 - the bound's symbols
-    """The bound M of checker._bend, a row per vertex of Q. A plane at rest takes the reach of all of P, which needs no support."""
+    """The bound M of checker._bend, a row per vertex of Q. A plane at rest takes the reach of all
+    of P, which needs no support.
+    """
     points, q_of = of_q
     wP, wQ = np.abs(P.theta), np.abs(Q.theta)
     spin = Q.spins(points, q_of) if wQ.any() else np.zeros(len(points))
@@ -125,12 +174,16 @@ def _bend(N, P, Q, n, s, e, sign, fixed, of_p, of_q):  # noqa: PLR0913 - the bou
         arm = np.maximum(arm, _norm(_cross(k[q_of], points + offset[q_of])))
     slide = _norm(_cross(P.k, N.d))
     spun = wQ[q_of] * spin
-    turning = _norm(_cross(n, P.k))[q_of] * ((wP**2)[q_of] * (arm + (e - s)[q_of] * spun) + 2 * wP[q_of] * (slide[q_of] + spun))
+    turning = _norm(_cross(n, P.k))[q_of] * (
+        (wP**2)[q_of] * (arm + (e - s)[q_of] * spun) + 2 * wP[q_of] * (slide[q_of] + spun)
+    )
     return np.where(fixed[q_of], M, turning + (_norm(n) * wQ)[q_of] * spun)
 
 
 def _points(jobs) -> list[tuple]:
-    """Points strictly inside or outside: carried into the body's frame, y with error rho; then tetrahedra and meshes."""
+    """Points strictly inside or outside: carried into the body's frame, y with error rho; then
+    tetrahedra and meshes.
+    """
     if not jobs:
         return []
     os = [o for _, o in jobs]
@@ -140,16 +193,21 @@ def _points(jobs) -> list[tuple]:
     x = np.array([o.v if type(o) is checker.Without else _offset(o) for o in os])
     span = N.reach + np.abs(x).sum(1)
     between = N.dp - t[:, None] * N.d
-    # A vertex of one body (B's if of_b) as seen from the other's point of turning; a point already is.
+    # A vertex of one body (B's if of_b) as seen from the other's point of turning; a point already
+    # is.
     own = N.b.where(of_b, N.a)
-    out = own.turned(t, np.einsum("tij,tj->ti", own.R, x - own.about)) + np.where(of_b[:, None], between, -between)
+    out = own.turned(t, np.einsum("tij,tj->ti", own.R, x - own.about)) + np.where(
+        of_b[:, None], between, -between
+    )
     seen = N.a.where(vertex == of_b, N.b)
     y = _apply(seen.R, seen.turned(-t, np.where(vertex[:, None], out, x))) + seen.about
     rho = 256 * UNIT * N.swing * span
     solid = np.array([getattr(o, "corners", None) is not None for o in os])
     open_ = ~solid
     if solid.any():
-        open_[solid] = ~_in_tetrahedra(np.array([os[i].corners for i in np.flatnonzero(solid)]), y[solid], rho[solid])
+        open_[solid] = ~_in_tetrahedra(
+            np.array([os[i].corners for i in np.flatnonzero(solid)]), y[solid], rho[solid]
+        )
     for i in np.flatnonzero(~solid):
         o = os[i]
         mesh = o.pair.a if vertex[i] == of_b[i] else o.pair.b
@@ -159,17 +217,33 @@ def _points(jobs) -> list[tuple]:
 
 
 def _in_tetrahedra(corners, y, rho):
-    """Four determinants of corners relative to y have one sign, each by more than 32 L^2 (rho + 8 u L)."""
+    """Four determinants of corners relative to y have one sign, each by more than 32 L^2 (rho + 8 u
+    L).
+    """
     w = corners - y[:, None, :]
     L = np.abs(w).max(axis=(1, 2)) + rho
     bound = 32 * L * L * (rho + 8 * UNIT * L)
     c01, c23 = _cross(w[:, 0], w[:, 1]), _cross(w[:, 2], w[:, 3])
-    dets = np.stack([(w[:, 1] * c23).sum(1), -(w[:, 0] * c23).sum(1), (c01 * w[:, 3]).sum(1), -(c01 * w[:, 2]).sum(1)], 1)
-    return ((dets > bound[:, None]).all(1) | (dets < -bound[:, None]).all(1)) & (bound > 1e-140) & (bound < 1e140)
+    dets = np.stack(
+        [
+            (w[:, 1] * c23).sum(1),
+            -(w[:, 0] * c23).sum(1),
+            (c01 * w[:, 3]).sum(1),
+            -(c01 * w[:, 2]).sum(1),
+        ],
+        1,
+    )
+    return (
+        ((dets > bound[:, None]).all(1) | (dets < -bound[:, None]).all(1))
+        & (bound > 1e-140)
+        & (bound < 1e140)
+    )
 
 
 def _offset(o):
-    """x at time t, relative to the body's point of turning there, in doubles, each coordinate rounded once."""
+    """x at time t, relative to the body's point of turning there, in doubles, each coordinate
+    rounded once.
+    """
     q = o.pair.query
     pose, motion = (q.pose_b, q.motion_b) if o.of_b else (q.pose_a, q.motion)
     if o.t == 0 and not motion.angle and all(type(c) is float for c in o.x):
@@ -179,7 +253,9 @@ def _offset(o):
 
 
 def winding(mesh, y, rho):
-    """Winding number of a mesh about y, each coordinate of which is off by at most rho; None where doubles cannot tell."""
+    """Winding number of a mesh about y, each coordinate of which is off by at most rho; None where
+    doubles cannot tell.
+    """
     low, high = geometry.face_boxes(mesh)
     for axis in range(3):
         i, j = (axis + 1) % 3, (axis + 2) % 3
@@ -195,7 +271,13 @@ def winding(mesh, y, rho):
         w = mesh.vertices[mesh.faces[met]] - y
         L = np.abs(w).max(axis=(1, 2)) + rho
         bound = 32 * L * (rho + 8 * UNIT * L)
-        edges = np.stack([w[:, c, i] * w[:, (c + 1) % 3, j] - w[:, c, j] * w[:, (c + 1) % 3, i] for c in range(3)], 1)
+        edges = np.stack(
+            [
+                w[:, c, i] * w[:, (c + 1) % 3, j] - w[:, c, j] * w[:, (c + 1) % 3, i]
+                for c in range(3)
+            ],
+            1,
+        )
         volume = (w[:, 0] * _cross(w[:, 1], w[:, 2])).sum(1)
         up, down = edges > bound[:, None], edges < -bound[:, None]
         missed = up.any(1) & down.any(1)
@@ -207,14 +289,18 @@ def winding(mesh, y, rho):
 
 
 def crossed(mesh, y, ray) -> np.ndarray:
-    """(m,) bool: the faces that the line through y (rationals or balls) along `ray` may cross, as far as doubles can tell."""
+    """(m,) bool: the faces that the line through y (rationals or balls) along `ray` may cross, as
+    far as doubles can tell.
+    """
     y0 = np.array([nearest_double(c) if not hasattr(c, "mid") else float(c.mid()) for c in y])
     blur = sum(float(c.rad()) for c in y if hasattr(c, "rad")) * 2
     w = mesh.vertices - y0
     reach = geometry.reach(mesh) + np.abs(y0).sum()
     rho = 8 * UNIT * reach + blur
     wf = w[mesh.faces]
-    side = np.stack([_cross(wf[:, i], wf[:, (i + 1) % 3]) @ np.array(ray, float) for i in range(3)], 1)
+    side = np.stack(
+        [_cross(wf[:, i], wf[:, (i + 1) % 3]) @ np.array(ray, float) for i in range(3)], 1
+    )
     L = np.abs(w).sum(1)[mesh.faces].max(1) + rho
     bound = (16 * np.abs(ray).sum() * L * (rho + 8 * UNIT * L))[:, None]
     if not 1e-140 < bound.min() < 1e140:
@@ -223,7 +309,9 @@ def crossed(mesh, y, ray) -> np.ndarray:
 
 
 def _rows(arrays):
-    """Of all arrays' rows in one block: the first row of each array, and the array that each row is of."""
+    """Of all arrays' rows in one block: the first row of each array, and the array that each row is
+    of.
+    """
     counts = np.array([len(a) for a in arrays])
     return np.cumsum(counts) - counts, np.repeat(np.arange(len(arrays)), counts)
 
@@ -249,7 +337,12 @@ def _apply(R, v):
 
 def _cross(a, b):
     return np.stack(
-        [a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1], a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2], a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]], 1
+        [
+            a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1],
+            a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2],
+            a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0],
+        ],
+        1,
     )
 
 

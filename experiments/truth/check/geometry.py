@@ -1,4 +1,6 @@
-"""What the checker's two arithmetics share: a query's poses and motion as doubles and as exact numbers; bodies as elements."""
+"""What the checker's two arithmetics share: a query's poses and motion as doubles and as exact
+numbers; bodies as elements.
+"""
 
 from __future__ import annotations
 
@@ -12,20 +14,29 @@ from flint import arb, fmpq, fmpz, fmpz_mat
 
 from .balls import add, cross, dot, mul, nearest_double, norm, rational, rotation, vector
 
-CACHES = _reaches, _parts, _boxes, _integers = tuple(WeakKeyDictionary() for _ in range(4))  #: by body
+#: by body
+CACHES = _reaches, _parts, _boxes, _integers = tuple(WeakKeyDictionary() for _ in range(4))
 
 
 class Pair:
-    """A query taken apart, in a frame that moves with B's displacement and has its origin where A's point of turning starts.
+    """A query taken apart, in a frame that moves with B's displacement and has its origin where A's
+    point of turning starts.
 
-    There A's point of turning moves by d = d_A - d_B, and B's stays at dp. row: the numbers in doubles for the filter: q_A, q_B
-    (4 each), dp, d, the axes divided by their largest component (3 each), the points of turning about_A, about_B (3 each), the
-    angles, and a bound on |v|_1 + |b|_1 + |about_A|_1 + |about_B|_1 + |dp|_1 + |d|_1.
+    There A's point of turning moves by d = d_A - d_B, and B's stays at dp. row: the numbers in
+    doubles for the filter: q_A, q_B (4 each), dp, d, the axes divided by their largest component (3
+    each), the points of turning about_A, about_B (3 each), the angles, and a bound on |v|_1 + |b|_1
+    + |about_A|_1 + |about_B|_1 + |dp|_1 + |d|_1.
     """
 
     def __init__(self, query):
         ma, mb = query.motion, query.motion_b
-        self.query, self.a, self.b, self.theta_a, self.theta_b = query, query.a, query.b, float(ma.angle), float(mb.angle)
+        self.query, self.a, self.b, self.theta_a, self.theta_b = (
+            query,
+            query.a,
+            query.b,
+            float(ma.angle),
+            float(mb.angle),
+        )
         about = [(m.about if m.angle else 0 * m.about).tolist() for m in (ma, mb)]
         self.about_a, self.about_b = about
         positions = [p.position.tolist() for p in (query.pose_a, query.pose_b)]
@@ -60,7 +71,9 @@ class Pair:
         return Exact(RA, RB, dp, d, *turns, vector(self.about_a), vector(self.about_b))
 
     def turn_a(self, t, v):
-        """Rot(k_A, theta_A t) v in balls; v itself where nothing turns, so that rationals stay rational."""
+        """Rot(k_A, theta_A t) v in balls; v itself where nothing turns, so that rationals stay
+        rational.
+        """
         return self.exact.turn_a.by(t, v)
 
     def turn_b(self, t, v):
@@ -68,14 +81,18 @@ class Pair:
 
 
 class Turn(NamedTuple):
-    """k: the unit axis (balls, or 0 where nothing turns). theta: the angle over the step. axis: as it is given, in rationals."""
+    """k: the unit axis (balls, or 0 where nothing turns). theta: the angle over the step. axis: as
+    it is given, in rationals.
+    """
 
     k: list
     theta: fmpq
     axis: list
 
     def by(self, t, v):
-        """Rot(k, theta t) v in balls; v itself where it does not turn, so that rationals stay rational."""
+        """Rot(k, theta t) v in balls; v itself where it does not turn, so that rationals stay
+        rational.
+        """
         if not self.theta or not t or not any(self._off_axis(v)):
             return v
         s, c = arb(self.theta * t).sin_cos()
@@ -91,7 +108,9 @@ class Turn(NamedTuple):
 
 
 class Exact(NamedTuple):
-    """RA, RB: rows of the rotations at the start. dp, d: see Pair. about: points of turning. All but turns.k in rationals."""
+    """RA, RB: rows of the rotations at the start. dp, d: see Pair. about: points of turning. All
+    but turns.k in rationals.
+    """
 
     RA: list
     RB: list
@@ -104,10 +123,14 @@ class Exact(NamedTuple):
 
 
 def centre(pose, motion) -> list:
-    """Where a body's point of turning starts, in the world, in rationals; its position where it does not turn."""
+    """Where a body's point of turning starts, in the world, in rationals; its position where it
+    does not turn.
+    """
     if not (motion.angle and motion.about.any()):
         return vector(pose.position)
-    return add(vector(pose.position), mul(rotation(*map(rational, pose.quaternion)), vector(motion.about)))
+    return add(
+        vector(pose.position), mul(rotation(*map(rational, pose.quaternion)), vector(motion.about))
+    )
 
 
 def _axis(motion) -> list:
@@ -123,7 +146,9 @@ def _scaled(axis):
 
 
 class Points:
-    """Vertices of a body's elements in a given order (n integers or None); `of(lo, hi)` are those of elements lo to hi - 1."""
+    """Vertices of a body's elements in a given order (n integers or None); `of(lo, hi)` are those
+    of elements lo to hi - 1.
+    """
 
     def __init__(self, body, order):
         self.mesh = body if body.kind == "mesh" else None
@@ -132,8 +157,14 @@ class Points:
         elif len(body.pieces) == 1:
             self.block, self.first = body.pieces[0].vertices, (0, len(body.pieces[0].vertices))
         else:
-            pieces = [body.pieces[i].vertices for i in (range(len(body.pieces)) if order is None else order)]
-            self.block, self.first = np.concatenate(pieces), np.cumsum([0] + [len(p) for p in pieces])
+            pieces = [
+                body.pieces[i].vertices
+                for i in (range(len(body.pieces)) if order is None else order)
+            ]
+            self.block, self.first = (
+                np.concatenate(pieces),
+                np.cumsum([0] + [len(p) for p in pieces]),
+            )
 
     def of(self, lo, hi):
         if not self.mesh:
@@ -149,7 +180,9 @@ class Points:
 
 
 def elements(body):
-    """The convex sets that a body is made of as far as planes go: its pieces, or the triangles of a mesh."""
+    """The convex sets that a body is made of as far as planes go: its pieces, or the triangles of a
+    mesh.
+    """
     return body.faces if body.kind == "mesh" else body.pieces
 
 
@@ -160,7 +193,9 @@ def parts(body):
             _parts[body] = [p.vertices[0] for p in body.pieces]
         else:
             part, before = np.arange(len(body.vertices)), None
-            while not np.array_equal(part, before) and part[body.faces].any():  # all 0: one part, as most bodies are
+            while (
+                not np.array_equal(part, before) and part[body.faces].any()
+            ):  # all 0: one part, as most bodies are
                 before, low = part.copy(), part[body.faces].min(axis=1)
                 for i in range(3):
                     np.minimum.at(part, body.faces[:, i], low)
@@ -177,12 +212,17 @@ def reach(body) -> float:
 
 
 def support(piece, m):
-    """(value, index) of the largest m.v over a convex body's vertices, m of rationals: in integers."""
+    """(value, index) of the largest m.v over a convex body's vertices, m of rationals: in
+    integers.
+    """
     if piece not in _integers:
         shift = max(0, *(53 - e for e in np.frexp(piece.vertices[piece.vertices != 0])[1].tolist()))
         _integers[piece] = (
             fmpz_mat(
-                [[int(fmpz(p) * 2**shift // q) for p, q in map(float.as_integer_ratio, v)] for v in piece.vertices.tolist()]
+                [
+                    [int(fmpz(p) * 2**shift // q) for p, q in map(float.as_integer_ratio, v)]
+                    for v in piece.vertices.tolist()
+                ]
             ),
             2**shift,
         )
@@ -198,5 +238,8 @@ def face_boxes(mesh):
     """(3, m) lower and upper bounds of each face."""
     if mesh not in _boxes:
         corners = mesh.vertices[mesh.faces]
-        _boxes[mesh] = np.ascontiguousarray(corners.min(1).T), np.ascontiguousarray(corners.max(1).T)
+        _boxes[mesh] = (
+            np.ascontiguousarray(corners.min(1).T),
+            np.ascontiguousarray(corners.max(1).T),
+        )
     return _boxes[mesh]

@@ -18,7 +18,8 @@ ROUNDS = 400  #: cuts before giving up; some twenty do
 
 
 def separating(*pairs: tuple[list, list]) -> list | None:
-    """n with n.a <= n.b for all points of A and B, in each pair (A, B); whole numbers. None if none.
+    """n with n.a <= n.b for all points of A and B, in each pair (A, B); whole numbers. None if
+    none.
 
     Points are rationals. Pairs beyond the first are such as the same two sets at another time.
     """

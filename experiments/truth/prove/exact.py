@@ -1,7 +1,9 @@
-"""The exact time of impact of two convex bodies in translation: the linear program min t, t d in B - A, solved in rationals.
+"""The exact time of impact of two convex bodies in translation: the linear program min t, t d in B
+- A, solved in rationals.
 
-A support-function simplex: three points of B - A whose triangle the ray along d pierces; the support point of the triangle's
-plane replaces one of them until none is lower (Snethen 2008 calls the triangle a portal). Doubles choose the first triangle.
+A support-function simplex: three points of B - A whose triangle the ray along d pierces; the
+support point of the triangle's plane replaces one of them until none is lower (Snethen 2008 calls
+the triangle a portal). Doubles choose the first triangle.
 """
 
 from __future__ import annotations
@@ -10,16 +12,27 @@ from functools import cache
 from itertools import combinations
 
 import numpy as np
-from ofg import Query
 
-from experiments.truth.check.balls import add, cross, dot, mul, rational, rotation, transposed, vector
+from experiments.truth.check.balls import (
+    add,
+    cross,
+    dot,
+    mul,
+    rational,
+    rotation,
+    transposed,
+    vector,
+)
 from experiments.truth.check.geometry import support
+from ofg import Query
 
 ROUNDS = 60
 
 
 def exact_time(query: Query, piece_a: int, piece_b: int, plane) -> dict | None:
-    """The certificate's `exact` for these pieces, from a plane (3 doubles) near the touching one; None where it degenerates."""
+    """The certificate's `exact` for these pieces, from a plane (3 doubles) near the touching one;
+    None where it degenerates.
+    """
     a, b = query.a.pieces[piece_a], query.b.pieces[piece_b]
     d = add(vector(query.motion.displacement), vector(query.motion_b.displacement), -1)
     RA, RB = (rotation(*map(rational, p.quaternion)) for p in (query.pose_a, query.pose_b))
@@ -50,8 +63,16 @@ def exact_time(query: Query, piece_a: int, piece_b: int, plane) -> dict | None:
             return {
                 "time": str(t),
                 "normal": [str(c) for c in n],
-                "a": {"piece": piece_a, "vertices": [i for i, _, _ in corners], "weights": [str(w) for w in weights]},
-                "b": {"piece": piece_b, "vertices": [j for _, j, _ in corners], "weights": [str(w) for w in weights]},
+                "a": {
+                    "piece": piece_a,
+                    "vertices": [i for i, _, _ in corners],
+                    "weights": [str(w) for w in weights],
+                },
+                "b": {
+                    "piece": piece_b,
+                    "vertices": [j for _, j, _ in corners],
+                    "weights": [str(w) for w in weights],
+                },
             }
         swaps = [corners[:k] + [(i, j, lowest)] + corners[k + 1 :] for k in range(3)]
         swaps = [s for s in swaps if _pierced([c for _, _, c in s], d) is not None]
@@ -62,7 +83,9 @@ def exact_time(query: Query, piece_a: int, piece_b: int, plane) -> dict | None:
 
 
 def _pierced(c, d):
-    """Convex weights of the point where the line along d pierces triangle c; None if it misses or runs in the plane."""
+    """Convex weights of the point where the line along d pierces triangle c; None if it misses or
+    runs in the plane.
+    """
     w = [dot(d, cross(c[(k + 1) % 3], c[(k + 2) % 3])) for k in range(3)]
     total = sum(w)
     if total == 0 or min(w) < 0 < max(w):
@@ -76,13 +99,26 @@ def _triples(n):
 
 
 def _portals(query, a, b, plane):
-    """Triples of vertex pairs near the plane's supports whose triangle the ray seems to pierce, the best conditioned first."""
+    """Triples of vertex pairs near the plane's supports whose triangle the ray seems to pierce, the
+    best conditioned first.
+    """
     A, B = a @ query.pose_a.rotation.T, b @ query.pose_b.rotation.T
     n = np.array(plane) / np.linalg.norm(plane)
     key_a, key_b = A @ n, B @ n
     size = np.ptp(key_a) + np.ptp(key_b)
-    dp, d = query.pose_b.position - query.pose_a.position, query.motion.displacement - query.motion_b.displacement
-    for near, most in ((1e-10, 9), (1e-10, 32), (1e-7, 32), (1e-4, 32), (1e-2, 32), (0.1, 32), (0.5, 32)):
+    dp, d = (
+        query.pose_b.position - query.pose_a.position,
+        query.motion.displacement - query.motion_b.displacement,
+    )
+    for near, most in (
+        (1e-10, 9),
+        (1e-10, 32),
+        (1e-7, 32),
+        (1e-4, 32),
+        (1e-2, 32),
+        (0.1, 32),
+        (0.5, 32),
+    ):
         ia = np.flatnonzero(key_a >= key_a.max() - near * size)
         ib = np.flatnonzero(key_b <= key_b.min() + near * size)
         pairs = sorted((key_b[j] - key_a[i], i, j) for i in ia for j in ib)

@@ -1,7 +1,9 @@
-"""Planes and common points of convex pieces that touch, in rationals: what no rounded search can propose.
+"""Planes and common points of convex pieces that touch, in rationals: what no rounded search can
+propose.
 
-Two pieces whose interiors are disjoint have a plane between them; cone.py finds it in whole numbers. Where they turn it must
-hold for some time, so a plane is sought that parts them at a later instant too.
+Two pieces whose interiors are disjoint have a plane between them; cone.py finds it in whole
+numbers. Where they turn it must hold for some time, so a plane is sought that parts them at a later
+instant too.
 """
 
 from __future__ import annotations
@@ -13,12 +15,12 @@ import numpy as np
 from flint import fmpq, fmpq_mat
 from scipy.optimize import linprog
 
+from experiments.truth.check.balls import BITS, add, dot, mul, nearest_double, rational, vector
+from experiments.truth.check.checker import FRAMES, Apart, Refused, apart
+from experiments.truth.check.geometry import Pair
 from ofg import Query
 
-from experiments.truth.check.balls import BITS, add, dot, mul, nearest_double, rational, vector
-from experiments.truth.check.checker import Apart, FRAMES, Refused, apart
 from .cone import separating
-from experiments.truth.check.geometry import Pair
 from .meet import meeting
 
 SPANS = tuple(10.0**-k for k in range(10))  #: of the step: how long a plane is tried to hold
@@ -26,7 +28,9 @@ SPANS = tuple(10.0**-k for k in range(10))  #: of the step: how long a plane is 
 
 @dataclass(frozen=True)
 class Plane:
-    """A plane with normal n (rationals, from A to B) that keeps two pieces apart over [0, end], in frame "W", "A" or "B"."""
+    """A plane with normal n (rationals, from A to B) that keeps two pieces apart over [0, end], in
+    frame "W", "A" or "B".
+    """
 
     n: list
     frame: str
@@ -34,7 +38,9 @@ class Plane:
 
 
 class Pieces:
-    """Piece i of A and piece j of B at t = 0, relative to A's point of turning: exact vertices, and doubles of them."""
+    """Piece i of A and piece j of B at t = 0, relative to A's point of turning: exact vertices, and
+    doubles of them.
+    """
 
     def __init__(self, query: Query, i: int, j: int):
         self.query, self.pair = query, Pair(query)
@@ -45,7 +51,9 @@ class Pieces:
         self.turns = bool(X.turn_a.theta or X.turn_b.theta)
 
     def swept(self) -> list:
-        """A's vertices at t = 0 and at t = 1, where nothing turns: the hull of what A sweeps, as seen from B."""
+        """A's vertices at t = 0 and at t = 1, where nothing turns: the hull of what A sweeps, as
+        seen from B.
+        """
         return self.A + [add(x, self.d) for x in self.A]
 
     def later(self, t) -> tuple[list, list]:
@@ -70,7 +78,9 @@ def _middle(c) -> fmpq:
 
 
 def plane(query: Query, i: int, j: int) -> Plane | None:
-    """A plane between piece i of A and piece j of B, which touch or nearly do, over as much of the step as can be shown."""
+    """A plane between piece i of A and piece j of B, which touch or nearly do, over as much of the
+    step as can be shown.
+    """
     with flint.ctx.workprec(BITS):
         p = Pieces(query, i, j)
         if p.turns:
@@ -83,7 +93,9 @@ def plane(query: Query, i: int, j: int) -> Plane | None:
 
 
 def witness(query: Query, i: int, j: int, found: Plane) -> dict | None:
-    """A common point of two pieces that a plane of `plane` keeps apart: the certificate's `touching`. None where there is none."""
+    """A common point of two pieces that a plane of `plane` keeps apart: the certificate's
+    `touching`. None where there is none.
+    """
     with flint.ctx.workprec(BITS):
         p = Pieces(query, i, j)
         swept = not p.turns and found.end > 0 and any(p.d)
@@ -143,18 +155,28 @@ def _on(points: list, n: list, extreme) -> list[int]:
 
 
 def _meeting(A: list, B: list) -> tuple[list, list] | None:
-    """Exact convex weights of a common point of two hulls in one plane: a vertex of the linear program, solved in rationals."""
+    """Exact convex weights of a common point of two hulls in one plane: a vertex of the linear
+    program, solved in rationals.
+    """
     rows = [[*(x[c] for x in A), *(-y[c] for y in B), fmpq(0)] for c in range(3)]
-    rows += [[fmpq(1)] * len(A) + [fmpq(0)] * len(B) + [fmpq(1)], [fmpq(0)] * len(A) + [fmpq(1)] * len(B) + [fmpq(1)]]
-    # Relative to a point of A and in units of the size, or the solver's tolerance would be one of length.
-    a, b = (np.array([[nearest_double(c) for c in add(x, A[0], -1)] for x in side]) for side in (A, B))
+    rows += [
+        [fmpq(1)] * len(A) + [fmpq(0)] * len(B) + [fmpq(1)],
+        [fmpq(0)] * len(A) + [fmpq(1)] * len(B) + [fmpq(1)],
+    ]
+    # Relative to a point of A and in units of the size, or the solver's tolerance would be one of
+    # length.
+    a, b = (
+        np.array([[nearest_double(c) for c in add(x, A[0], -1)] for x in side]) for side in (A, B)
+    )
     size = max(np.abs(a).max(), np.abs(b).max()) or 1.0
     equal = np.zeros((5, len(A) + len(B)))
     equal[:3] = np.concatenate([a, -b]).T / size
     equal[3, : len(A)] = equal[4, len(A) :] = 1
     rng = np.random.default_rng(0)
     for _ in range(4):
-        r = linprog(rng.uniform(size=equal.shape[1]), A_eq=equal, b_eq=[0, 0, 0, 1, 1], method="highs-ds")
+        r = linprog(
+            rng.uniform(size=equal.shape[1]), A_eq=equal, b_eq=[0, 0, 0, 1, 1], method="highs-ds"
+        )
         if r.status != 0:
             return None
         used = np.flatnonzero(r.x > 1e-12)
@@ -168,7 +190,9 @@ def _meeting(A: list, B: list) -> tuple[list, list] | None:
 
 
 def _solved(rows: list) -> list | None:
-    """A solution of the linear equations [matrix | right side]; free unknowns are 0. None if there is none."""
+    """A solution of the linear equations [matrix | right side]; free unknowns are 0. None if there
+    is none.
+    """
     reduced, rank = fmpq_mat(rows).rref()
     unknowns = len(rows[0]) - 1
     solution = [fmpq(0)] * unknowns

@@ -9,12 +9,21 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from experiments.analysis.plots import curves
 from experiments.analysis import metrics
-from experiments.run.config import TableChoice
+from experiments.analysis.plots import curves
 from experiments.analysis.tables.tables import Table
+from experiments.run.config import TableChoice
 
-METHODS = ("ofg k=8", "ofg k=64", "brute-force", "fcl-convex", "fcl-mesh", "fcl-convex-exact", "bullet", "mujoco")
+METHODS = (
+    "ofg k=8",
+    "ofg k=64",
+    "brute-force",
+    "fcl-convex",
+    "fcl-mesh",
+    "fcl-convex-exact",
+    "bullet",
+    "mujoco",
+)
 LEVELS = ("12", "80", "320", "1280")
 
 
@@ -23,8 +32,16 @@ def table(value="misses", count=lambda m, i: 5 * i, methods=METHODS) -> Table:
     for m, method in enumerate(methods):
         for i, level in enumerate(LEVELS):
             low, high = metrics.wilson(count(m, i), 20)
-            numbers = {"misses": count(m, i), "hits": 20, "miss_low": low, "miss_high": high} if value == "misses" else {
-                "median": 1000.0 * (m + 1) * 10**i, "low": 900.0, "high": 1e7, "ratio": 2.0**i}
+            numbers = (
+                {"misses": count(m, i), "hits": 20, "miss_low": low, "miss_high": high}
+                if value == "misses"
+                else {
+                    "median": 1000.0 * (m + 1) * 10**i,
+                    "low": 900.0,
+                    "high": 1e7,
+                    "ratio": 2.0**i,
+                }
+            )
             rows.append({"method": method, "level": level, **numbers})
     text = pd.DataFrame({"method": methods, **dict.fromkeys(LEVELS, "")})
     choice = TableChoice(name="t", title="T.", value=value, scenarios=("face_count",))
@@ -33,8 +50,12 @@ def table(value="misses", count=lambda m, i: 5 * i, methods=METHODS) -> Table:
 
 def test_points_are_those_of_the_table():
     found = curves.series(table()).set_index(["method", "x"])
-    assert found.y["bullet", 2] == 50 and found.low["bullet", 2] == pytest.approx(100 * metrics.wilson(10, 20)[0])
-    assert curves.series(table("net time")).set_index(["method", "x"]).y["ofg k=64", 1] == pytest.approx(20.0)  # us
+    assert found.y["bullet", 2] == 50 and found.low["bullet", 2] == pytest.approx(
+        100 * metrics.wilson(10, 20)[0]
+    )
+    assert curves.series(table("net time")).set_index(["method", "x"]).y[
+        "ofg k=64", 1
+    ] == pytest.approx(20.0)  # us
 
 
 def test_nothing_asked_is_no_point():
@@ -46,7 +67,9 @@ def test_nothing_asked_is_no_point():
 def test_few_levels_and_other_columns_are_not_drawn():
     assert curves.drawable(table())
     short = table()
-    assert not curves.drawable(Table("t", "T.", "", short.numbers, short.text.iloc[:, :3], choice=short.choice))
+    assert not curves.drawable(
+        Table("t", "T.", "", short.numbers, short.text.iloc[:, :3], choice=short.choice)
+    )
     assert not curves.drawable(Table("t", "T.", "", short.numbers, short.text))
 
 
@@ -54,7 +77,9 @@ def test_an_engine_of_many_methods_goes_on_in_a_further_panel():
     many = [f"ofg k={k}" for k in range(1, 15)] + ["bullet"]
     groups = curves.panels(many)
     assert [engine for engine, _ in groups] == ["ofg", "ofg", "ofg", "pybullet"]
-    assert [m for _, methods in groups for m in methods] == many and max(len(m) for _, m in groups) <= curves.PER_PANEL
+    assert [m for _, methods in groups for m in methods] == many and max(
+        len(m) for _, m in groups
+    ) <= curves.PER_PANEL
 
 
 @pytest.mark.parametrize("value", ["misses", "net time", "ratio"])
@@ -74,8 +99,15 @@ def test_every_curve_is_named_once_and_names_do_not_touch(value):
 def test_names_are_moved_apart_in_their_order(heights):
     placed = curves.apart(heights, 0.1)
     order = np.argsort(heights, kind="stable")
-    assert (np.diff(np.array(placed)[order]) >= 0.1 - 1e-9).all() and 0 <= min(placed) and max(placed) <= 1 + 1e-9
+    assert (
+        (np.diff(np.array(placed)[order]) >= 0.1 - 1e-9).all()
+        and 0 <= min(placed)
+        and max(placed) <= 1 + 1e-9
+    )
 
 
 def test_the_pieces_own_error_is_drawn_as_no_engine():
-    assert curves.panels(["bullet-coacd", "CoACD pieces"]) == [("pybullet", ["bullet-coacd"]), ("no engine", ["CoACD pieces"])]
+    assert curves.panels(["bullet-coacd", "CoACD pieces"]) == [
+        ("pybullet", ["bullet-coacd"]),
+        ("no engine", ["CoACD pieces"]),
+    ]

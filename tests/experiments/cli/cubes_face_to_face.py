@@ -1,4 +1,6 @@
-"""Two unit cubes face to face, about 1e-8 deep (float32 snapping blurs it), turned together at random: the pose at which FCL's signed distance aborts the process."""
+"""Two unit cubes face to face, about 1e-8 deep (float32 snapping blurs it), turned together at
+random: the pose at which FCL's signed distance aborts the process.
+"""
 
 import numpy as np
 
@@ -14,4 +16,11 @@ def generate(rng, level):
     return Draft(box(), box(), Pose(q, (1 - level) * normal), Pose(q))
 
 
-SCENARIO = Scenario(name="cubes_face_to_face", question="overlap", exposes="what aborts", axis="depth", levels=(1e-8,), generate=generate)
+SCENARIO = Scenario(
+    name="cubes_face_to_face",
+    question="overlap",
+    exposes="what aborts",
+    axis="depth",
+    levels=(1e-8,),
+    generate=generate,
+)

@@ -1,4 +1,6 @@
-"""The main job on a few cases: the same to the bit whatever the workers, the seed's run again, or an interruption."""
+"""The main job on a few cases: the same to the bit whatever the workers, the seed's run again, or
+an interruption.
+"""
 
 import hashlib
 import os
@@ -11,20 +13,39 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from experiments.cli import runner
 from experiments.analysis.tables import tables
+from experiments.cli import runner
 from experiments.run.config import ConfigError, RunConfig
 from experiments.run.folder.store import Store
 
 CONFIG = RunConfig(
-    seed=7, methods=["ofg k=4,8", "fcl-convex", "fcl-distance", "fcl-ccd-mesh", "mujoco-substeps n=1,4", "bullet"], timing={"cases": 0},
-    scenarios=[{"name": "feature_gap", "cases": 7, "levels": [1e-2, -1e-2, -1e-8]}, {"name": "contained", "cases": 4, "levels": [0.1]},
-               {"name": "thin_wall", "cases": 6, "levels": [10.0]}, {"name": "spin_side", "cases": 3, "levels": [1.0]}])
+    seed=7,
+    methods=[
+        "ofg k=4,8",
+        "fcl-convex",
+        "fcl-distance",
+        "fcl-ccd-mesh",
+        "mujoco-substeps n=1,4",
+        "bullet",
+    ],
+    timing={"cases": 0},
+    scenarios=[
+        {"name": "feature_gap", "cases": 7, "levels": [1e-2, -1e-2, -1e-8]},
+        {"name": "contained", "cases": 4, "levels": [0.1]},
+        {"name": "thin_wall", "cases": 6, "levels": [10.0]},
+        {"name": "spin_side", "cases": 3, "levels": [1.0]},
+    ],
+)
 
 
 def digest(folder) -> dict[str, str]:
     """Content of everything that must not depend on the clock."""
-    files = ["cases.parquet", "bodies.parquet", "observations.parquet", *(f"tables/{p.name}" for p in (folder / "tables").iterdir())]
+    files = [
+        "cases.parquet",
+        "bodies.parquet",
+        "observations.parquet",
+        *(f"tables/{p.name}" for p in (folder / "tables").iterdir()),
+    ]
     return {name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in files}
 
 
@@ -42,11 +63,21 @@ def test_one_worker_gives_the_same_bits(reference, tmp_path):
 
 def test_a_killed_run_goes_on_and_ends_the_same(reference, tmp_path):
     folder = tmp_path / "run"
-    code = ("from tests.experiments.cli.test_runner import CONFIG; from experiments.cli import runner\n"
-            f"runner.run(CONFIG, {str(folder)!r}, workers=2)")
-    process = subprocess.Popen([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": os.getcwd()}, start_new_session=True)
+    code = (
+        "from tests.experiments.cli.test_runner import CONFIG; from experiments.cli import runner\n"
+        f"runner.run(CONFIG, {str(folder)!r}, workers=2)"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", code],
+        env={**os.environ, "PYTHONPATH": os.getcwd()},
+        start_new_session=True,
+    )
     deadline = time.monotonic() + 120
-    while process.poll() is None and time.monotonic() < deadline and len(list(folder.glob("parts/observations/*.parquet"))) < 2:
+    while (
+        process.poll() is None
+        and time.monotonic() < deadline
+        and len(list(folder.glob("parts/observations/*.parquet"))) < 2
+    ):
         time.sleep(0.02)
     assert process.poll() is None, "the run ended before it could be killed; give it more to do"
     os.killpg(process.pid, signal.SIGKILL)
@@ -64,10 +95,17 @@ def test_every_method_has_a_row_for_every_case(reference):
 
 
 def test_an_engine_that_aborts_costs_its_own_rows(tmp_path):
-    """FCL's signed distance throws through C near touching (6 of 600 pairs of cubes at -1e-8); the run goes on and says so."""
+    """FCL's signed distance throws through C near touching (6 of 600 pairs of cubes at -1e-8); the
+    run goes on and says so.
+    """
     cubes = str(Path(__file__).with_name("cubes_face_to_face.py"))
-    config = RunConfig(seed=7, methods=["fcl-distance", "fcl-convex"], timing={"cases": 0}, scenario_files=[cubes],
-                       scenarios=[{"name": "cubes_face_to_face", "cases": 300}])
+    config = RunConfig(
+        seed=7,
+        methods=["fcl-distance", "fcl-convex"],
+        timing={"cases": 0},
+        scenario_files=[cubes],
+        scenarios=[{"name": "cubes_face_to_face", "cases": 300}],
+    )
     runner.run(config, tmp_path / "run")
     observations = Store(tmp_path / "run").read("observations.parquet")
     died = observations[observations.status != "ok"]
@@ -89,18 +127,29 @@ def test_parts_are_gone_and_the_manifest_says_what_ran(reference):
 
 
 def test_a_missing_engine_is_said_before_anything_runs(tmp_path, monkeypatch):
-    monkeypatch.setattr(runner.registry, "available", lambda cls: "pybullet is not installed; install it with: pip install pybullet" if cls.engine == "pybullet" else None)
+    monkeypatch.setattr(
+        runner.registry,
+        "available",
+        lambda cls: (
+            "pybullet is not installed; install it with: pip install pybullet"
+            if cls.engine == "pybullet"
+            else None
+        ),
+    )
     with pytest.raises(ConfigError, match="pip install pybullet.*--skip-missing"):
         runner.run(CONFIG, tmp_path / "run")
     assert not (tmp_path / "run").exists()
 
 
-@pytest.mark.parametrize("change, words", [
-    ({"scenarios": [{"name": "thin_wal", "cases": 1}]}, "thin_wall"),
-    ({"scenarios": [{"name": "thin_wall", "cases": 1, "levels": [3.0]}]}, "has no level 3"),
-    ({"methods": ["fcl-convexx"]}, "fcl-convex"),
-    ({"methods": ["ofg q=3"]}, "no parameter 'q'"),
-])
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        ({"scenarios": [{"name": "thin_wal", "cases": 1}]}, "thin_wall"),
+        ({"scenarios": [{"name": "thin_wall", "cases": 1, "levels": [3.0]}]}, "has no level 3"),
+        ({"methods": ["fcl-convexx"]}, "fcl-convex"),
+        ({"methods": ["ofg q=3"]}, "no parameter 'q'"),
+    ],
+)
 def test_a_wrong_name_is_said_before_anything_runs(tmp_path, change, words):
     with pytest.raises(ValueError, match=words):
         runner.run(RunConfig.model_validate({**CONFIG.model_dump(), **change}), tmp_path / "run")

@@ -1,4 +1,6 @@
-"""The findings page: it is what the committed runs make, its verdicts turn when the rows do, and what is missing is said."""
+"""The findings page: it is what the committed runs make, its verdicts turn when the rows do, and
+what is missing is said.
+"""
 
 import dataclasses
 import re
@@ -11,15 +13,25 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from baselines import registry
-from experiments.run import config, piece_truth
 from experiments.analysis import metrics
 from experiments.cases import families
-from experiments.studies import sizes
 from experiments.publish.findings import ends, objections
 from experiments.publish.findings import page as page_of
 from experiments.publish.findings.claims import CLAIMS, finding
 from experiments.publish.findings.engines import QUESTIONS
-from experiments.publish.findings.runs import FAILS, HOLDS, Missing, OPEN, PART, Rate, Runs, UNMEASURED, are_small
+from experiments.publish.findings.runs import (
+    FAILS,
+    HOLDS,
+    OPEN,
+    PART,
+    UNMEASURED,
+    Missing,
+    Rate,
+    Runs,
+    are_small,
+)
+from experiments.run import config, piece_truth
+from experiments.studies import sizes
 from ofg import Body, Motion, Pose, Query, ask
 
 RESULTS = Path(__file__).parents[3] / "results"
@@ -27,7 +39,8 @@ N = 80  # cases of a kind: enough for a verdict
 
 
 class Fake(Runs):
-    """Runs in memory with methods and families of the catalogue; N cases of each family, answered as told.
+    """Runs in memory with methods and families of the catalogue; N cases of each family, answered
+    as told.
 
     wrong(method, scenario, i): the answer is; late(method, i): its time is off by so much;
     slow(method, level): net time; noise(method, level): of its floor; unknown: of the hits at an
@@ -57,7 +70,9 @@ class Fake(Runs):
         return self._read[run]
 
     def _answers(self, chosen):
-        families = dict.fromkeys(c.name for c in chosen.scenarios if c.name not in ("large_mesh", "real_motion"))
+        families = dict.fromkeys(
+            c.name for c in chosen.scenarios if c.name not in ("large_mesh", "real_motion")
+        )
         cases = pd.DataFrame(
             [
                 {
@@ -113,12 +128,15 @@ class Fake(Runs):
         return pd.concat([at_end, at_end.assign(found="nothing", meet=False)])
 
     def times(self, run):
-        levels, methods = (20.0, 320.0, 5120.0), (
-            "ofg k=8",
-            "ofg k=64",
-            "brute-force",
-            "ofg k=8 repairs=all",
-            "ofg k=8 toi=bisection",
+        levels, methods = (
+            (20.0, 320.0, 5120.0),
+            (
+                "ofg k=8",
+                "ofg k=64",
+                "brute-force",
+                "ofg k=8 repairs=all",
+                "ofg k=8 toi=bisection",
+            ),
         )
         return pd.DataFrame(
             [
@@ -192,22 +210,39 @@ def test_one_bad_family_is_a_part(title, family):
 
 def test_a_higher_k():
     def missed_under(bound):
-        return (
-            lambda method, scenario, i: method.startswith("ofg k=")
+        return lambda method, scenario, i: (
+            method.startswith("ofg k=")
             and " " not in method[4:]
             and i < bound(float(method.split("=")[1]), scenario)
         )
 
     assert said("A higher k", Fake(missed_under(lambda k, scenario: 64 / k))) == HOLDS
     assert said("A higher k", Fake(missed_under(lambda k, scenario: min(k, 512) / 8))) == FAILS
-    assert said("A higher k", Fake(missed_under(lambda k, scenario: 64 / k + 10 * (scenario == "sliver" and k == 16)))) == PART
+    assert (
+        said(
+            "A higher k",
+            Fake(
+                missed_under(lambda k, scenario: 64 / k + 10 * (scenario == "sliver" and k == 16))
+            ),
+        )
+        == PART
+    )
 
 
 def test_false_alarms():
     assert said("What it calls", Fake(label="clear")) == HOLDS
-    assert said("What it calls", Fake(lambda method, scenario, i: method == "ofg k=8", label="clear")) == FAILS
     assert (
-        said("What it calls", Fake(lambda method, scenario, i: scenario == "graze" or scenario == "contact", label="clear"))
+        said("What it calls", Fake(lambda method, scenario, i: method == "ofg k=8", label="clear"))
+        == FAILS
+    )
+    assert (
+        said(
+            "What it calls",
+            Fake(
+                lambda method, scenario, i: scenario == "graze" or scenario == "contact",
+                label="clear",
+            ),
+        )
         == PART
     )
 
@@ -343,7 +378,12 @@ def native(own: float, small: float) -> pd.DataFrame:
         [
             {"situation": "apart", "faces": f, "method": m, "native": ns}
             for f, s in ((12, small), (320, 1.0))
-            for m, ns in (("ofg k=8", own), ("ofg k=4", 0.1), ("fcl-convex", 100 * s), ("parry", 200.0))
+            for m, ns in (
+                ("ofg k=8", own),
+                ("ofg k=4", 0.1),
+                ("fcl-convex", 100 * s),
+                ("parry", 200.0),
+            )
         ]
     )
 
@@ -396,7 +436,12 @@ def hulls(missed, pairs=lambda question, k: k * k, distances=2.0, evaluated=1) -
     made = []
     for faces in sizes.FACES:
         for k in (*(k for k in sizes.KS if k < faces), faces):
-            for question, depth in (("overlap", "shallow"), ("overlap", "deep"), ("translation", ""), ("motion", "")):
+            for question, depth in (
+                ("overlap", "shallow"),
+                ("overlap", "deep"),
+                ("translation", ""),
+                ("motion", ""),
+            ):
                 made += [
                     {
                         "question": question,
@@ -421,9 +466,21 @@ def hulls(missed, pairs=lambda question, k: k * k, distances=2.0, evaluated=1) -
     "title, good, bad",
     [
         ("k of 4 to 8", hulls(lambda f, d: 0), hulls(lambda f, d: 50)),
-        ("Small faces", hulls(lambda f, d: 0 if f < 1000 else 50), hulls(lambda f, d: 50 if f < 1000 else 0)),
-        ("Best for convex", hulls(lambda f, d: 0 if f < 1000 else 50), hulls(lambda f, d: 50 if f < 1000 else 0)),
-        ("Once bodies", hulls(lambda f, d: 50 * (d == "deep")), hulls(lambda f, d: 50 * (d == "shallow"))),
+        (
+            "Small faces",
+            hulls(lambda f, d: 0 if f < 1000 else 50),
+            hulls(lambda f, d: 50 if f < 1000 else 0),
+        ),
+        (
+            "Best for convex",
+            hulls(lambda f, d: 0 if f < 1000 else 50),
+            hulls(lambda f, d: 50 if f < 1000 else 0),
+        ),
+        (
+            "Once bodies",
+            hulls(lambda f, d: 50 * (d == "deep")),
+            hulls(lambda f, d: 50 * (d == "shallow")),
+        ),
         ("Selecting faces", hulls(lambda f, d: 0), hulls(lambda f, d: 0, distances=2.1)),
         ("At most k^2", hulls(lambda f, d: 0), hulls(lambda f, d: 0, lambda q, k: k * k + 1)),
         ("Selecting faces", hulls(lambda f, d: 0), hulls(lambda f, d: 0, evaluated=5)),
@@ -461,7 +518,11 @@ def test_every_claim_is_turned_by_some_test():
     assert all(any(c.title.startswith(t) for t in tried) for c in CLAIMS)
 
 
-RATES = st.lists(st.tuples(st.integers(0, 60), st.integers(0, 60)).map(lambda t: (t[0], t[0] + t[1] + 1)), min_size=1, max_size=4)
+RATES = st.lists(
+    st.tuples(st.integers(0, 60), st.integers(0, 60)).map(lambda t: (t[0], t[0] + t[1] + 1)),
+    min_size=1,
+    max_size=4,
+)
 
 
 @given(RATES, st.data())
@@ -499,7 +560,9 @@ def page():
 
 
 def test_the_committed_page_is_what_the_committed_runs_make(page):
-    assert (RESULTS / "README.md").read_text() == page, "build it anew: ofg-bench findings results --into results/README.md"
+    assert (RESULTS / "README.md").read_text() == page, (
+        "build it anew: ofg-bench findings results --into results/README.md"
+    )
 
 
 def test_it_is_short_and_its_links_lead_somewhere(page):
@@ -507,7 +570,9 @@ def test_it_is_short_and_its_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)#]+)\)", page):
         assert (RESULTS / target).exists(), target
     for target in re.findall(r"\]\(#([^)]+)\)", page):
-        assert f'id="{target}"' in page or f"## {target.replace('-', ' ')}\n" in page.lower(), target
+        assert f'id="{target}"' in page or f"## {target.replace('-', ' ')}\n" in page.lower(), (
+            target
+        )
 
 
 def test_its_engine_tables_are_the_accuracy_tables(page):
@@ -519,7 +584,10 @@ def test_its_engine_tables_are_the_accuracy_tables(page):
         for row in pd.read_csv(csv).itertuples():
             if row.answered and row.method != piece_truth.NAME:  # no engine
                 cell = str(Rate(row.misses, row.hits, row.miss_low, row.miss_high))
-                assert any(line.startswith(f"| {row.method} |") and cell in line for line in page.splitlines()), (
+                assert any(
+                    line.startswith(f"| {row.method} |") and cell in line
+                    for line in page.splitlines()
+                ), (
                     row.method,
                     cell,
                 )
@@ -531,7 +599,11 @@ def test_the_committed_objections_are_what_the_committed_runs_make():
 
 def test_each_of_the_ten_objections_is_measured():
     page = objections.page(Runs(RESULTS))
-    assert len(objections.OBJECTIONS) == 10 and page.count("Command: `") == 10 and "not measured" not in page
+    assert (
+        len(objections.OBJECTIONS) == 10
+        and page.count("Command: `") == 10
+        and "not measured" not in page
+    )
 
 
 def test_an_objection_without_its_run_says_so(tmp_path):

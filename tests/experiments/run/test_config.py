@@ -15,13 +15,25 @@ def test_every_preset_loads():
         config.load(name)
 
 
-@pytest.mark.parametrize("text, words", [
-    ("seed = -1\nmethods = ['ofg']\nscenarios = [{name='deep', cases=1}]", ["seed", "greater than or equal to 0"]),
-    ("seed = 1\nmethods = []\nscenarios = [{name='deep', cases=1}]", ["methods", "at least 1"]),
-    ("seed = 1\nmethods = ['ofg']\nscenarios = [{name='deep', cases=1}]\nworker = 3", ["worker", "not permitted"]),
-    ("seed = 1\nmethods = ['ofg']\nscenarios = [{name='deep', cases='many'}]", ["scenarios.0.cases", "integer"]),
-    ("seed = ", ["not valid TOML"]),
-])
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        (
+            "seed = -1\nmethods = ['ofg']\nscenarios = [{name='deep', cases=1}]",
+            ["seed", "greater than or equal to 0"],
+        ),
+        ("seed = 1\nmethods = []\nscenarios = [{name='deep', cases=1}]", ["methods", "at least 1"]),
+        (
+            "seed = 1\nmethods = ['ofg']\nscenarios = [{name='deep', cases=1}]\nworker = 3",
+            ["worker", "not permitted"],
+        ),
+        (
+            "seed = 1\nmethods = ['ofg']\nscenarios = [{name='deep', cases='many'}]",
+            ["scenarios.0.cases", "integer"],
+        ),
+        ("seed = ", ["not valid TOML"]),
+    ],
+)
 def test_a_wrong_file_is_named_with_its_field(tmp_path, text, words):
     with pytest.raises(config.ConfigError) as error:
         config.load(write(tmp_path, text))

@@ -1,4 +1,6 @@
-"""Methods on pieces are judged by the pieces; the pieces' own error has a row; a forged truth is refused."""
+"""Methods on pieces are judged by the pieces; the pieces' own error has a row; a forged truth is
+refused.
+"""
 
 from __future__ import annotations
 
@@ -11,24 +13,28 @@ import pytest
 import ofg
 from experiments.analysis import compare as comparing
 from experiments.analysis import metrics
-from experiments.run import piece_truth
-from experiments.run.folder import rows
-from experiments.cli import runner
 from experiments.analysis.tables import tables
+from experiments.cli import runner
+from experiments.run import piece_truth
 from experiments.run.config import RunConfig
+from experiments.run.folder import rows
 from experiments.run.folder.record import RecordError
 from experiments.run.folder.store import Store
-from experiments.truth import check_many
-from experiments.truth import label
+from experiments.truth import check_many, label
 from experiments.verification import verify
 from ofg import Body
-
 from tests.experiments.verification.test_forgery import forged, put
 
-SCENARIOS = [{"name": "hooked_ls", "cases": 3, "levels": [0.001, -0.001]},
-             {"name": "linked_tori", "cases": 8, "levels": [1e-5, -1e-5]}]
-CONFIG = RunConfig(seed=2004, timing={"cases": 0}, scenarios=SCENARIOS,
-                   methods=["ofg k=8", "ofg k=8 repairs=all", "bullet-coacd", "mujoco-coacd"])
+SCENARIOS = [
+    {"name": "hooked_ls", "cases": 3, "levels": [0.001, -0.001]},
+    {"name": "linked_tori", "cases": 8, "levels": [1e-5, -1e-5]},
+]
+CONFIG = RunConfig(
+    seed=2004,
+    timing={"cases": 0},
+    scenarios=SCENARIOS,
+    methods=["ofg k=8", "ofg k=8 repairs=all", "bullet-coacd", "mujoco-coacd"],
+)
 ON_PIECES = {"ofg k=8", "bullet-coacd", "mujoco-coacd"}
 
 
@@ -46,7 +52,9 @@ def found(folder):
 
 def test_each_case_about_a_mesh_is_certified_of_its_pieces_too(folder):
     store = Store(folder)
-    cases, bodies, pieces = (store.read(f"{name}.parquet") for name in ("cases", "bodies", "pieces"))
+    cases, bodies, pieces = (
+        store.read(f"{name}.parquet") for name in ("cases", "bodies", "pieces")
+    )
     kind = bodies.set_index("body").kind
     about = cases[(cases.body_a.map(kind) == "mesh") | (cases.body_b.map(kind) == "mesh")]
     assert 0 < len(about) < len(cases) and pieces.case.tolist() == about.case.tolist()
@@ -92,8 +100,10 @@ def test_the_pieces_own_error_is_counted_by_the_mesh_and_is_no_method(folder, fo
     cases = store.read("cases.parquet").set_index("case").label
     pieces = store.read("pieces.parquet").set_index("case").label
     mesh = cases[pieces.index]
-    wanted = (int(((mesh == "hit") & (pieces == "clear")).sum()),
-              int(((mesh == "clear") & (pieces == "hit")).sum()))
+    wanted = (
+        int(((mesh == "hit") & (pieces == "clear")).sum()),
+        int(((mesh == "clear") & (pieces == "hit")).sum()),
+    )
     assert sum(wanted) > 0
     made = {table.name: table for table in tables.build(store)}
     own = made["accuracy-overlap"].numbers.set_index("method").loc[piece_truth.NAME]
@@ -146,9 +156,13 @@ def unsure(frame):
 
 
 FORGERIES = {
-    "label": turned, "uncertain": unsure, "deleted": lambda t: t.iloc[1:],
-    "doubled": lambda t: t.iloc[[0, *range(len(t))]], "order": lambda t: t.iloc[::-1],
-    "gap": put("gap", lambda gap: 3 * gap), "touching": put("touching", lambda x: not x),
+    "label": turned,
+    "uncertain": unsure,
+    "deleted": lambda t: t.iloc[1:],
+    "doubled": lambda t: t.iloc[[0, *range(len(t))]],
+    "order": lambda t: t.iloc[::-1],
+    "gap": put("gap", lambda gap: 3 * gap),
+    "touching": put("touching", lambda x: not x),
     "certificate": put("certificate", "{}"),
     "precision": put("precision", lambda p: {"float32": "float64"}.get(p, "float32")),
     "another body": put("body_a", "0" * 24),
@@ -161,8 +175,10 @@ def test_a_forged_truth_of_the_pieces_is_refused(folder, tmp_path, name):
     assert not verify(forged(folder, tmp_path / "f", FORGERIES[name], "pieces"), workers=2).ok
 
 
-@pytest.mark.parametrize("change", [lambda t: t.iloc[1:], put("name", "other"),
-                                    put("vertices", lambda v: 1.1 * np.array(v))])
+@pytest.mark.parametrize(
+    "change",
+    [lambda t: t.iloc[1:], put("name", "other"), put("vertices", lambda v: 1.1 * np.array(v))],
+)
 def test_forged_bodies_of_the_pieces_are_refused(folder, tmp_path, change):
     assert not verify(forged(folder, tmp_path / "f", change, "pieces-bodies"), workers=2).ok
 
@@ -171,7 +187,10 @@ def test_forged_bodies_of_the_pieces_are_refused(folder, tmp_path, change):
 def test_one_file_without_the_other_is_refused(folder, tmp_path, name):
     store = forged(folder, tmp_path / "f")
     store.path(name).unlink()
-    assert any(said.startswith(name) for said in verify(forged(store.folder, tmp_path / "g"), workers=2).refused)
+    assert any(
+        said.startswith(name)
+        for said in verify(forged(store.folder, tmp_path / "g"), workers=2).refused
+    )
 
 
 def test_a_run_from_before_is_accepted_with_a_note(folder, tmp_path):
@@ -201,6 +220,7 @@ def test_other_pieces_with_a_true_proof_are_refused(folder, tmp_path):
 
 def test_an_interrupted_run_goes_on_and_ends_the_same(folder, tmp_path, monkeypatch):
     """Stopped after the pieces were certified, and once more with a part of them lost."""
+
     def stop(*_):
         raise KeyboardInterrupt
 

@@ -30,8 +30,16 @@ def _open(kill_at):
 
 def _results(tmp_path, items, kill_at, workers=2):
     found = {}
-    tasks = [Task(_open, kill_at, chunk, partial(found.__setitem__, i), lambda item, loss: (item, loss.status, loss.detail))
-             for i, chunk in enumerate(items)]
+    tasks = [
+        Task(
+            _open,
+            kill_at,
+            chunk,
+            partial(found.__setitem__, i),
+            lambda item, loss: (item, loss.status, loss.detail),
+        )
+        for i, chunk in enumerate(items)
+    ]
     run(tasks, workers, 2.0, tmp_path / "log")
     return [found[i] for i in range(len(items))]
 
@@ -77,9 +85,17 @@ def _open_leaky(_):
 
 def test_a_worker_that_leaks_is_replaced_and_loses_nothing(tmp_path):
     found = []
-    run([Task(_open_leaky, None, list(range(12)), found.extend, lambda item, loss: loss)], 1, 10.0, tmp_path / "log", memory=512 << 20)
+    run(
+        [Task(_open_leaky, None, list(range(12)), found.extend, lambda item, loss: loss)],
+        1,
+        10.0,
+        tmp_path / "log",
+        memory=512 << 20,
+    )
     assert [item for item, _ in found] == list(range(12))
-    assert 1 < max(held for _, held in found) < 12, "no worker went through all items, and none was replaced at once"
+    assert 1 < max(held for _, held in found) < 12, (
+        "no worker went through all items, and none was replaced at once"
+    )
 
 
 def test_an_error_of_ours_is_raised_with_its_traceback(tmp_path):
@@ -88,7 +104,9 @@ def test_an_error_of_ours_is_raised_with_its_traceback(tmp_path):
 
 
 def test_bad_input_is_said_in_its_own_words(tmp_path):
-    """What a reader did wrong is one paragraph of the command, not a traceback through the pool; that is in the log."""
+    """What a reader did wrong is one paragraph of the command, not a traceback through the pool;
+    that is in the log.
+    """
     with pytest.raises(ValueError, match="^3 is no number of ours$"):
         _results(tmp_path, [[1, 2, 3]], {"refuse": 3})
     assert "Traceback" in (tmp_path / "log").read_text()

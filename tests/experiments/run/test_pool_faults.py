@@ -1,4 +1,6 @@
-"""Faults of the machine, with real processes: none of them becomes a result, and nothing is left behind."""
+"""Faults of the machine, with real processes: none of them becomes a result, and nothing is left
+behind.
+"""
 
 import ctypes
 import os
@@ -116,7 +118,9 @@ def test_a_worker_killed_from_outside_loses_nothing(tmp_path, which):
 
 
 def test_the_fork_server_killed_loses_nothing(tmp_path):
-    """With the server of multiprocessing, 3 of 7 such kills ended with exit 0 and a hit turned uncertain."""
+    """With the server of multiprocessing, 3 of 7 such kills ended with exit 0 and a hit turned
+    uncertain.
+    """
     there = tmp_path / "there"
     _when_there(there, lambda pid: os.kill(crew._current.process.pid, signal.SIGKILL))
     assert _ask(tmp_path, {2: f"wait {there}"}) == [1, 4, 9]
@@ -134,20 +138,28 @@ def test_a_worker_stopped_for_longer_than_its_limit_loses_nothing(tmp_path):
         os.kill(pid, signal.SIGCONT)
 
     _when_there(there, pause)
-    # SIGUSR1 is waited for and not blocked, so it may end the process, which is a death from outside too
+    # SIGUSR1 is waited for and not blocked, so it may end the process, which is a death from
+    # outside too
     assert _ask(tmp_path, {2: f"wait {there}"}, seconds=1.0) == [1, 4, 9]
 
 
-@pytest.mark.parametrize("doing, status, words", [
-    (f"signal {signal.SIGSEGV}", "error", "killed twice, alone: SIGSEGV"),
-    (f"signal {signal.SIGKILL}", "error", "killed twice, alone: SIGKILL"),
-    (f"signal {signal.SIGRTMIN + 3}", "error", f"killed twice, alone: signal {signal.SIGRTMIN + 3}"),
-    ("exit 1", "error", "ended itself twice, alone: exit code 1"),
-    ("leave 0", "error", "ended itself twice, alone: exit code 0"),
-    ("leave 75", "error", "ended itself twice, alone: exit code 75"),
-    ("close", "error", "ended itself twice, alone: its results could not be sent"),
-    ("allocate", "error", "ended itself twice, alone: out of memory"),
-])
+@pytest.mark.parametrize(
+    "doing, status, words",
+    [
+        (f"signal {signal.SIGSEGV}", "error", "killed twice, alone: SIGSEGV"),
+        (f"signal {signal.SIGKILL}", "error", "killed twice, alone: SIGKILL"),
+        (
+            f"signal {signal.SIGRTMIN + 3}",
+            "error",
+            f"killed twice, alone: signal {signal.SIGRTMIN + 3}",
+        ),
+        ("exit 1", "error", "ended itself twice, alone: exit code 1"),
+        ("leave 0", "error", "ended itself twice, alone: exit code 0"),
+        ("leave 75", "error", "ended itself twice, alone: exit code 75"),
+        ("close", "error", "ended itself twice, alone: its results could not be sent"),
+        ("allocate", "error", "ended itself twice, alone: out of memory"),
+    ],
+)
 def test_what_ends_its_process_each_time_is_a_row_with_its_words(tmp_path, doing, status, words):
     first, lost, last = _ask(tmp_path, {2: doing}, memory=1 << 30)
     assert (first, lost, last) == (1, Loss(status, words, ""), 9)
@@ -156,11 +168,19 @@ def test_what_ends_its_process_each_time_is_a_row_with_its_words(tmp_path, doing
 @pytest.mark.parametrize("doing", ["sleep", f"signal {signal.SIGSTOP}"])
 def test_what_takes_no_processor_time_ends_at_the_deadline(tmp_path, monkeypatch, doing):
     monkeypatch.setattr(limits, "GRACE", 1.0)
-    assert _ask(tmp_path, {2: doing}, seconds=0.1) == [1, Loss("timeout", "killed twice, alone: no answer by the deadline"), 9]
+    assert _ask(tmp_path, {2: doing}, seconds=0.1) == [
+        1,
+        Loss("timeout", "killed twice, alone: no answer by the deadline"),
+        9,
+    ]
 
 
 def test_a_watchdog_that_was_cancelled_is_replaced_by_the_runner(tmp_path):
-    assert _ask(tmp_path, {2: "disarm"}, seconds=0.5) == [1, Loss("timeout", "the limit for one item ran out"), 9]
+    assert _ask(tmp_path, {2: "disarm"}, seconds=0.5) == [
+        1,
+        Loss("timeout", "the limit for one item ran out"),
+        9,
+    ]
 
 
 def test_what_a_worker_leaves_behind_is_ended(tmp_path):
@@ -210,7 +230,8 @@ def test_nothing_is_left_of_a_runner_that_was_killed(tmp_path, stopped):
     """28 of 38 left orphans. Even a fork server that was stopped cleans up."""
     there = tmp_path / "there"
     runner = subprocess.Popen(
-        [sys.executable, "-c", RUNNER, str(tmp_path)], env={**os.environ, "PYTHONPATH": os.getcwd()})
+        [sys.executable, "-c", RUNNER, str(tmp_path)], env={**os.environ, "PYTHONPATH": os.getcwd()}
+    )
     while not there.exists() or not there.read_text():
         assert runner.poll() is None
         time.sleep(0.02)
@@ -224,7 +245,9 @@ def test_nothing_is_left_of_a_runner_that_was_killed(tmp_path, stopped):
 
 
 def test_the_fork_server_killed_while_a_second_worker_starts_loses_nothing(tmp_path, monkeypatch):
-    """What the first worker was at was forgotten: its results were missing, and the run said that it was unfinished."""
+    """What the first worker was at was forgotten: its results were missing, and the run said that
+    it was unfinished.
+    """
     there, found, start = tmp_path / "there", {}, crew.Crew._start
 
     def started(self, job, payload):
@@ -236,7 +259,15 @@ def test_the_fork_server_killed_while_a_second_worker_starts_loses_nothing(tmp_p
         return start(self, job, payload)
 
     monkeypatch.setattr(crew.Crew, "_start", started)
-    tasks = [Task(_open, {2: f"wait {there}"}, [1, 2, 3], lambda r: found.update(first=r), lambda item, loss: loss),
-             Task(_open, {}, [4, 5], lambda r: found.update(second=r), lambda item, loss: loss)]
+    tasks = [
+        Task(
+            _open,
+            {2: f"wait {there}"},
+            [1, 2, 3],
+            lambda r: found.update(first=r),
+            lambda item, loss: loss,
+        ),
+        Task(_open, {}, [4, 5], lambda r: found.update(second=r), lambda item, loss: loss),
+    ]
     run(tasks, 2, 5.0, tmp_path / "log")
     assert found == {"first": [1, 4, 9], "second": [16, 25]}

@@ -13,7 +13,9 @@ class Clock:
 
 
 def walk(plan, real, steps=40, better=None):
-    """A run whose stages take `real` seconds; the forecast after it. better: what stages know of themselves when they begin."""
+    """A run whose stages take `real` seconds; the forecast after it. better: what stages know of
+    themselves when they begin.
+    """
     clock = Clock()
     forecast = Forecast(plan, clock)
     for name, seconds in real.items():
@@ -82,7 +84,9 @@ def test_what_is_foreseen_takes_the_place_of_plan_and_pace():
 
 
 def test_at_half_is_what_stood_on_the_screen_then():
-    """A stage of one long last step: nothing was said after its first half, and "0 s left" at its end is no forecast."""
+    """A stage of one long last step: nothing was said after its first half, and "0 s left" at its
+    end is no forecast.
+    """
     clock = Clock()
     forecast = Forecast({"a": 100.0}, clock)
     forecast.begin("a")

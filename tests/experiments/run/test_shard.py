@@ -38,12 +38,16 @@ def test_a_shard_reads_back_and_another_is_not_there(shard, tmp_path):
     assert not Store(tmp_path).shard("cases", seed=2).ready()
 
 
-@pytest.mark.parametrize("content", [
-    lambda whole: b"",
-    lambda whole: whole[: len(whole) // 2],
-    lambda whole: bytes(len(whole)),
-    lambda whole: whole[:40] + bytes([whole[40] ^ 1]) + whole[41:],
-], ids=["empty", "cut", "zeros", "one bit"])
+@pytest.mark.parametrize(
+    "content",
+    [
+        lambda whole: b"",
+        lambda whole: whole[: len(whole) // 2],
+        lambda whole: bytes(len(whole)),
+        lambda whole: whole[:40] + bytes([whole[40] ^ 1]) + whole[41:],
+    ],
+    ids=["empty", "cut", "zeros", "one bit"],
+)
 def test_a_damaged_shard_is_removed_with_a_notice(shard, content, capfd):
     """An empty or cut part ended every resume with a traceback of the Parquet reader."""
     path = file_of(shard)

@@ -4,8 +4,8 @@ import pandas as pd
 import pytest
 
 from experiments.run.config import RunConfig
-from experiments.run.processes.machine import MachineError
 from experiments.run.folder.store import Store, StoreError
+from experiments.run.processes.machine import MachineError
 
 CONFIG = RunConfig(seed=1, methods=["ofg"], scenarios=[{"name": "deep", "cases": 1}])
 
@@ -53,4 +53,7 @@ def test_labels_of_an_earlier_run_are_read_as_they_are_written_now(tmp_path):
     labels = ["ofg k=8 selection=point-triangle", "ofg k=8 repairs=selection-times", "fcl-mesh"]
     store.write(pd.DataFrame({"method": labels}), "rows.parquet")
     assert store.config.methods == ("ofg k=8,64 nearest=point-triangle",)
-    assert list(store.read("rows.parquet").method) == ["ofg k=8 nearest=point-triangle", *labels[1:]]
+    assert list(store.read("rows.parquet").method) == [
+        "ofg k=8 nearest=point-triangle",
+        *labels[1:],
+    ]

@@ -13,14 +13,19 @@ import pytest
 
 from experiments.cli import runner
 from experiments.run.config import RunConfig
-from experiments.run.processes.machine import MachineError
 from experiments.run.folder.record import RecordError
 from experiments.run.folder.store import Store, StoreError
+from experiments.run.processes.machine import MachineError
 
-CONFIG = RunConfig(seed=3, methods=["fcl-convex", "ofg k=8"], timing={"cases": 0}, scenarios=[
-    {"name": "feature_gap", "cases": 10, "levels": [1e-2, -1e-2]},
-    {"name": "thin_wall", "cases": 4, "levels": [10.0]},
-])
+CONFIG = RunConfig(
+    seed=3,
+    methods=["fcl-convex", "ofg k=8"],
+    timing={"cases": 0},
+    scenarios=[
+        {"name": "feature_gap", "cases": 10, "levels": [1e-2, -1e-2]},
+        {"name": "thin_wall", "cases": 4, "levels": [10.0]},
+    ],
+)
 FILES = ("cases.parquet", "bodies.parquet", "observations.parquet")
 MINE = """
 from baselines.contract import Method, Verdict
@@ -48,6 +53,7 @@ def reference(tmp_path_factory):
 @pytest.fixture
 def stopped(tmp_path, monkeypatch):
     """A run that stopped after its answers were made and before it was said to be finished."""
+
     def stop(*_):
         raise KeyboardInterrupt
 
@@ -58,9 +64,13 @@ def stopped(tmp_path, monkeypatch):
 
 
 def bench(*words, cwd):
-    return subprocess.run([sys.executable, "-m", "experiments.cli", *map(str, words)], cwd=cwd,
-                          capture_output=True, text=True,
-                          env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[3])})
+    return subprocess.run(
+        [sys.executable, "-m", "experiments.cli", *map(str, words)],
+        cwd=cwd,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[3])},
+    )
 
 
 def test_damage_of_all_kinds_ends_in_the_same_bytes(stopped, reference, capfd):
@@ -78,9 +88,15 @@ def test_damage_of_all_kinds_ends_in_the_same_bytes(stopped, reference, capfd):
     assert not list(stopped.rglob(".*"))
 
 
-@pytest.mark.parametrize("left", [
-    [], [".config.json.0123abcd.unfinished"], [".lock"], ["own/method-0-mine.py"],
-])
+@pytest.mark.parametrize(
+    "left",
+    [
+        [],
+        [".config.json.0123abcd.unfinished"],
+        [".lock"],
+        ["own/method-0-mine.py"],
+    ],
+)
 def test_a_kill_before_the_configuration_is_written_refuses_nothing(tmp_path, left):
     """A temporary file alone in the folder was refused: it "is not empty and holds no run"."""
     for name in left:
@@ -92,6 +108,7 @@ def test_a_kill_before_the_configuration_is_written_refuses_nothing(tmp_path, le
 
 def test_an_update_makes_everything_again(stopped, reference, monkeypatch, capfd):
     """What another state of the code had made was taken for its own."""
+
     def names(folder):
         return [p.name for p in folder.glob("parts/*/*.parquet")]
 
@@ -133,7 +150,9 @@ def test_a_full_disk_stops_the_run_which_goes_on_to_the_same_bytes(tmp_path, ref
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
     try:
-        with pytest.raises(MachineError, match="could (not )?be (written|started).*ofg-bench resume"):
+        with pytest.raises(
+            MachineError, match="could (not )?be (written|started).*ofg-bench resume"
+        ):
             runner.run(CONFIG, tmp_path / "run", workers=2)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
@@ -142,12 +161,15 @@ def test_a_full_disk_stops_the_run_which_goes_on_to_the_same_bytes(tmp_path, ref
     assert digests(tmp_path / "run") == reference
 
 
-@pytest.mark.parametrize("out, words", [
-    ("file", "is a file, not a folder"),
-    ("file/below", "cannot be used"),
-    ("/proc/nowhere/run", "cannot be used"),
-    ("x" * 300, "File name too long"),
-])
+@pytest.mark.parametrize(
+    "out, words",
+    [
+        ("file", "is a file, not a folder"),
+        ("file/below", "cannot be used"),
+        ("/proc/nowhere/run", "cannot be used"),
+        ("x" * 300, "File name too long"),
+    ],
+)
 def test_a_folder_that_cannot_be_is_said_in_a_paragraph(tmp_path, out, words):
     """Each was a traceback of mkdir."""
     (tmp_path / "file").write_text("")

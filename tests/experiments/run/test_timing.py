@@ -4,19 +4,20 @@ import pandas as pd
 
 from experiments.analysis import metrics
 from experiments.analysis.tables import tables
-from experiments.run.config import RunConfig
 from experiments.cases.families import get
+from experiments.run.config import RunConfig
 from experiments.run.folder.store import Store
-from experiments.run.timing import Bin, COLUMNS, LOST, measure_bin
+from experiments.run.timing import COLUMNS, LOST, Bin, measure_bin
 
-METHODS = '''
+METHODS = """
 import os
 from baselines.contract import Method, Verdict
 
 
 class Frail(Method):
     name, engine, imports, configuration, guarantee = "frail", "numpy", "numpy", "default", "none"
-    questions, bodies, solid, parameters = frozenset({"overlap"}), frozenset({"convex", "union", "mesh"}), True, {"lives": 1000}
+    questions, bodies = frozenset({"overlap"}), frozenset({"convex", "union", "mesh"})
+    solid, parameters = True, {"lives": 1000}
     asked = 0
 
     def prepare(self, query):
@@ -30,21 +31,34 @@ class Frail(Method):
 
 
 METHODS = [Frail]
-'''
+"""
 
 
 def test_a_method_that_dies_loses_its_own_times_alone(tmp_path):
     (tmp_path / "frail.py").write_text(METHODS)
-    config = RunConfig(seed=1, methods=["ofg k=8", "frail lives=3,1000"], scenarios=[{"name": "deep", "cases": 1}], timing={"cases": 2, "rounds": 3},
-                       method_files=[str(tmp_path / "frail.py")])
+    config = RunConfig(
+        seed=1,
+        methods=["ofg k=8", "frail lives=3,1000"],
+        scenarios=[{"name": "deep", "cases": 1}],
+        timing={"cases": 2, "rounds": 3},
+        method_files=[str(tmp_path / "frail.py")],
+    )
     cases = [get("deep").case(1, get("deep").levels[0], i) for i in range(2)]
     everything = {case.id for case in cases}
-    bin_ = Bin("overlap", "to 24", "deep", cases, dict.fromkeys(("ofg k=8", "frail lives=3", "frail lives=1000"), everything))
+    bin_ = Bin(
+        "overlap",
+        "to 24",
+        "deep",
+        cases,
+        dict.fromkeys(("ofg k=8", "frail lives=3", "frail lives=1000"), everything),
+    )
     store = Store(tmp_path / "run")
     found = pd.DataFrame(measure_bin(store, config, bin_, 120.0), columns=COLUMNS)
     assert set(found.method) == {"ofg k=8", "frail lives=1000", "(noise probe)", LOST}
     assert all(len(rounds) == 3 for rounds in found[found.method != LOST].rounds_ns)
     store.write(found, "timings.parquet")
     (words,) = metrics.lost(store)
-    assert words.startswith("frail lives=3: error, killed twice, alone: SIGABRT") and words in tables._state(store)
+    assert words.startswith(
+        "frail lives=3: error, killed twice, alone: SIGABRT"
+    ) and words in tables._state(store)
     assert set(metrics.case_costs(store).method) == {"ofg k=8", "frail lives=1000"}

@@ -3,9 +3,9 @@
 import pytest
 
 from baselines import registry, units
+from experiments.cases import families
 from experiments.run import config
 from experiments.run.folder import origin
-from experiments.cases import families
 from experiments.studies import tuning
 
 
@@ -30,12 +30,15 @@ def test_no_run_counts_what_the_units_were_chosen_on(name):
 
 def test_every_family_is_asked_about():
     assert {case.scenario for case, _ in tuning.cases()} >= set(families.own_modules()) & set(
-        families.scenarios()) - {"large_mesh"}  # more faces than FACES
+        families.scenarios()
+    ) - {"large_mesh"}  # more faces than FACES
 
 
 def test_substeps_and_pieces_take_the_unit_of_their_method():
-    for name, base in (("fcl-convex-exact-substeps", "fcl-convex-exact"),
-                       ("bullet-coacd", "bullet-no-margin")):
+    for name, base in (
+        ("fcl-convex-exact-substeps", "fcl-convex-exact"),
+        ("bullet-coacd", "bullet-no-margin"),
+    ):
         assert registry.make(name)[0].length == units.tuned()[base]
 
 

@@ -1,7 +1,8 @@
-"""The depth of an overlap is the least translation that ends it, so no more than the one the scenario was built with.
+"""The depth of an overlap is the least translation that ends it, so no more than the one the
+scenario was built with.
 
-Cause of this test: of edge-edge contacts 1e-10 deep, `gap` came out as -0.05 (the depth along the best face normal), and a miss
-at 1e-10 was filed in the tables under "deep". Tables are split by
+Cause of this test: of edge-edge contacts 1e-10 deep, `gap` came out as -0.05 (the depth along the
+best face normal), and a miss at 1e-10 was filed in the tables under "deep". Tables are split by
 this number, so it matters as much as the label.
 """
 
@@ -18,4 +19,9 @@ def test_depth_is_at_most_the_built_one(level):
         case = scenario.case(1, level, index)
         truth = label(case.query)
         built = abs(level) * min(case.query.a.size, case.query.b.size)
-        assert truth.label == "hit" and 0 < -truth.gap <= 1.5 * built, (case.id, case.tags, truth.gap, built)
+        assert truth.label == "hit" and 0 < -truth.gap <= 1.5 * built, (
+            case.id,
+            case.tags,
+            truth.gap,
+            built,
+        )

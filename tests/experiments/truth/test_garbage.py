@@ -9,8 +9,7 @@ from math import inf, nan
 import pytest
 
 from experiments.run.folder.rows import _certificate
-from experiments.truth import label
-from experiments.truth import verify
+from experiments.truth import label, verify
 from ofg import Body, Motion, Pose, Query
 
 CUBE = Body.convex([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])

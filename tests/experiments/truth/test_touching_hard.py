@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from experiments.truth import check
-from experiments.truth import label
+from experiments.truth import check, label
 from ofg import Body, Motion, Pose, Query
 
 CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)

@@ -10,9 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from experiments.run.folder.rows import _certificate
-from experiments.truth import Truth, label_many
-from experiments.truth import label
-from experiments.truth import verify
+from experiments.truth import Truth, label, label_many, verify
 from ofg import Body, Pose, Query
 
 from .draw import composite_query, convex_query
@@ -48,7 +46,9 @@ def test_uncertain_labels_are_counted_by_reason():
 
 
 def test_the_checker_imports_no_prover_and_no_engine():
-    """In a process of its own that stubs the package, so that only the checker's own imports load."""
+    """In a process of its own that stubs the package, so that only the checker's own imports
+    load.
+    """
     code = """
 import importlib, sys, types, pathlib
 import experiments

@@ -1,6 +1,8 @@
-"""Says commands one after another in one process and writes down what came of each, line by line: what is missing at the end crashed.
+"""Says commands one after another in one process and writes down what came of each, line by line:
+what is missing at the end crashed.
 
-Usage: strangers_batch.py JOBS RESULTS. A job is the words of a command of ofg-bench, or ["mesh", path].
+Usage: strangers_batch.py JOBS RESULTS. A job is the words of a command of ofg-bench, or ["mesh",
+path].
 """
 
 import contextlib
@@ -17,7 +19,11 @@ from ofg import Body, BodyError
 def done(words: list[str]) -> dict:
     out, err = io.StringIO(), io.StringIO()
     code, trace = None, ""
-    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err), warnings.catch_warnings():
+    with (
+        contextlib.redirect_stdout(out),
+        contextlib.redirect_stderr(err),
+        warnings.catch_warnings(),
+    ):
         warnings.simplefilter("ignore")
         try:
             if words[0] == "mesh":
@@ -33,7 +39,13 @@ def done(words: list[str]) -> dict:
             err.write(str(error))
         except BaseException:
             trace = traceback.format_exc()
-    return {"words": words, "code": code, "out": out.getvalue(), "err": err.getvalue(), "trace": trace}
+    return {
+        "words": words,
+        "code": code,
+        "out": out.getvalue(),
+        "err": err.getvalue(),
+        "trace": trace,
+    }
 
 
 if __name__ == "__main__":

@@ -9,17 +9,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from experiments.run.folder import manifest
+from experiments import verification
 from experiments.cli import runner
 from experiments.run.config import RunConfig
+from experiments.run.folder import manifest
 from experiments.run.folder.store import Store
-from experiments import verification
 from experiments.verification import verify
 
-CONFIG = RunConfig(seed=3, methods=["ofg k=4"], timing={"cases": 1, "rounds": 3}, scenarios=[
-    {"name": "feature_gap", "cases": 3, "levels": [0.01, -0.01]},
-    {"name": "thin_wall", "cases": 3, "levels": [10.0]},
-    {"name": "hooked_ls", "cases": 1}])
+CONFIG = RunConfig(
+    seed=3,
+    methods=["ofg k=4"],
+    timing={"cases": 1, "rounds": 3},
+    scenarios=[
+        {"name": "feature_gap", "cases": 3, "levels": [0.01, -0.01]},
+        {"name": "thin_wall", "cases": 3, "levels": [10.0]},
+        {"name": "hooked_ls", "cases": 1},
+    ],
+)
 
 #: What verify cannot find by design (truth/README.md lists it in words), by table and column.
 SILENT = {"timings": ("build_ns", "rounds_ns"), "observations": ("detail",)}
@@ -51,19 +57,29 @@ def forged(run, folder, change=None, table="cases", config=None, rehash=True):
 
 def put(column, value, label=None):
     """Set a cell of the first row, or of the first that has the label."""
+
     def change(frame):
         i = frame.index[frame.label == label][0] if label else 0
         frame[column] = frame[column].astype(object)
         frame.at[i, column] = value(frame.at[i, column]) if callable(value) else value
         if isinstance(frame.at[i, column], (int, float, bool, str)):
             frame[column] = frame[column].infer_objects()
+
     return change
 
 
 def uncertain(frame):
-    for column, value in (("label", "uncertain"), ("start", "uncertain"), ("end", "uncertain"),
-                          ("t_lo", np.nan), ("t_hi", np.nan), ("gap", np.nan), ("reason", "?"),
-                          ("touching", False), ("certificate", "{}")):
+    for column, value in (
+        ("label", "uncertain"),
+        ("start", "uncertain"),
+        ("end", "uncertain"),
+        ("t_lo", np.nan),
+        ("t_hi", np.nan),
+        ("gap", np.nan),
+        ("reason", "?"),
+        ("touching", False),
+        ("certificate", "{}"),
+    ):
         frame.loc[0, column] = value
 
 
@@ -81,23 +97,35 @@ def swapped(frame):
 
 
 def borrowed(frame):
-    hit, clear = (frame.index[(frame.label == x) & (frame.question == "overlap")][0]
-                  for x in ("hit", "clear"))
+    hit, clear = (
+        frame.index[(frame.label == x) & (frame.question == "overlap")][0] for x in ("hit", "clear")
+    )
     claims = ["label", "start", "end", "gap", "certificate", "touching"]
     frame.loc[hit, claims] = frame.loc[clear, claims]
 
 
 FORGERIES = {
-    "uncertain": uncertain, "deleted": lambda t: t.iloc[1:], "bracket": widened, "swapped": swapped,
-    "doubled": lambda t: t.iloc[[0, *range(len(t))]], "other certificate": borrowed,
-    "order": lambda t: t.iloc[::-1], "NaN gap": put("gap", np.nan),
+    "uncertain": uncertain,
+    "deleted": lambda t: t.iloc[1:],
+    "bracket": widened,
+    "swapped": swapped,
+    "doubled": lambda t: t.iloc[[0, *range(len(t))]],
+    "other certificate": borrowed,
+    "order": lambda t: t.iloc[::-1],
+    "NaN gap": put("gap", np.nan),
     "gap of a hit": put("gap", lambda g: 2 * g, "hit"),
     "gap of a clear": put("gap", lambda g: g / 2, "clear"),
-    "size": put("size", 9.0), "faces": put("faces", 7), "level": put("level", 0.5),
-    "tags": put("tags", '{"feature": "none"}'), "index": put("index", 77),
-    "attempt": put("attempt", 1), "touching": put("touching", lambda x: not x),
-    "precision": put("precision", "float16"), "pose": put("position_b", lambda p: 2 * p),
-    "end": put("end", "uncertain", "hit"), "garbage": put("certificate", "[" * 9999),
+    "size": put("size", 9.0),
+    "faces": put("faces", 7),
+    "level": put("level", 0.5),
+    "tags": put("tags", '{"feature": "none"}'),
+    "index": put("index", 77),
+    "attempt": put("attempt", 1),
+    "touching": put("touching", lambda x: not x),
+    "precision": put("precision", "float16"),
+    "pose": put("position_b", lambda p: 2 * p),
+    "end": put("end", "uncertain", "hit"),
+    "garbage": put("certificate", "[" * 9999),
     "huge": put("certificate", lambda c: c.replace("0", "9" * 400)),
 }
 
@@ -115,16 +143,32 @@ def opened(frame):
     frame.at[0, "faces"] = np.array(frame.faces[0])[3:]
 
 
-@pytest.mark.parametrize("change", [moved, opened, lambda t: t.iloc[1:],
-                                    lambda t: t.iloc[[0, *range(len(t))]], put("name", "other"),
-                                    put("kind", "mesh"), put("body", "0" * 64)])
+@pytest.mark.parametrize(
+    "change",
+    [
+        moved,
+        opened,
+        lambda t: t.iloc[1:],
+        lambda t: t.iloc[[0, *range(len(t))]],
+        put("name", "other"),
+        put("kind", "mesh"),
+        put("body", "0" * 64),
+    ],
+)
 def test_a_forged_body_is_found(run, tmp_path, change):
     assert not verify(forged(run, tmp_path / "f", change, "bodies"), workers=1).ok
 
 
-@pytest.mark.parametrize("change", [lambda t: t.iloc[1:], lambda t: t.iloc[[0, *range(len(t))]],
-                                    put("method", "ofg k=64"), put("status", "fine"),
-                                    put("time", 7.0)])
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda t: t.iloc[1:],
+        lambda t: t.iloc[[0, *range(len(t))]],
+        put("method", "ofg k=64"),
+        put("status", "fine"),
+        put("time", 7.0),
+    ],
+)
 def test_forged_rows_of_answers_are_found(run, tmp_path, change):
     assert not verify(forged(run, tmp_path / "f", change, "observations"), workers=1).ok
 
@@ -148,9 +192,13 @@ def test_another_seed_is_found(run, tmp_path):
 
 
 def test_a_changed_file_is_named_and_a_run_without_hashes_says_so(run, tmp_path):
-    changed = forged(run, tmp_path / "f", put("rounds_ns", lambda r: 2 * r), "timings", rehash=False)
+    changed = forged(
+        run, tmp_path / "f", put("rounds_ns", lambda r: 2 * r), "timings", rehash=False
+    )
     found = verify(changed, workers=1)
-    assert len(found.refused) == 1 and found.refused[0].startswith("timings.parquet: the file chang")
+    assert len(found.refused) == 1 and found.refused[0].startswith(
+        "timings.parquet: the file chang"
+    )
     changed.path("timings.parquet").unlink()
     assert any("missing" in r for r in verify(changed, workers=1).refused)
     changed.path("manifest.json").write_text("{}")

@@ -1,4 +1,6 @@
-"""A forger who also proves again what he changed: the package's cases are drawn anew, own ones with --trust."""
+"""A forger who also proves again what he changed: the package's cases are drawn anew, own ones with
+--trust.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +12,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from experiments.run.folder import rows
 from experiments.cli import runner
 from experiments.run.config import RunConfig
+from experiments.run.folder import rows
 from experiments.run.folder.store import Store
 from experiments.truth import label
 from experiments.verification import verify
@@ -20,26 +22,50 @@ from ofg import Body, Query
 
 from .test_forgery import forged, run  # noqa: F401 (run is a fixture)
 
-CLAIMS = ("label", "t_lo", "t_hi", "start", "end", "gap", "touching", "reason", "certificate", "size", "faces")
-OWN = '''
+CLAIMS = (
+    "label",
+    "t_lo",
+    "t_hi",
+    "start",
+    "end",
+    "gap",
+    "touching",
+    "reason",
+    "certificate",
+    "size",
+    "faces",
+)
+OWN = """
 from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import box
 from ofg import Pose
 
 def generate(rng, level):
-    return Draft(box(1, 1, 1), box(1, 1, 0.5), Pose(), Pose(position=(1.0 + level, *rng.uniform(-0.1, 0.1, 2))))
+    at = Pose(position=(1.0 + level, *rng.uniform(-0.1, 0.1, 2)))
+    return Draft(box(1, 1, 1), box(1, 1, 0.5), Pose(), at)
 
 SCENARIO = Scenario("own", "overlap", "nothing", "gap", (0.1, -0.1), generate)
-'''
+"""
 
 
 def proved(frames: dict, i: int, query: Query) -> None:
     """Write the query into row i of the cases with its bodies and a true proof."""
-    case = next(case for j, (case, _) in enumerate(rows.cases_of(frames["cases"], frames["bodies"])) if j == i)
-    made = rows.case_row(type(case)(case.id, case.scenario, case.level, case.index, query, case.tags, case.precision),
-                         label(query), int(frames["cases"].attempt[i]))
+    case = next(
+        case
+        for j, (case, _) in enumerate(rows.cases_of(frames["cases"], frames["bodies"]))
+        if j == i
+    )
+    made = rows.case_row(
+        type(case)(
+            case.id, case.scenario, case.level, case.index, query, case.tags, case.precision
+        ),
+        label(query),
+        int(frames["cases"].attempt[i]),
+    )
     for column, value in made.items():
-        frames["cases"][column] = [value if k == i else v for k, v in enumerate(frames["cases"][column])]
+        frames["cases"][column] = [
+            value if k == i else v for k, v in enumerate(frames["cases"][column])
+        ]
 
 
 def easier(body: Body) -> Body:
@@ -48,7 +74,9 @@ def easier(body: Body) -> Body:
 
 
 def replaced(frames, old_digest: bool) -> None:
-    """The first convex body of a case, under its old digest or under its own, with the cases about it proved again."""
+    """The first convex body of a case, under its old digest or under its own, with the cases about
+    it proved again.
+    """
     cases, bodies = frames["cases"], frames["bodies"]
     at = bodies.index[bodies.kind == "convex"][0]
     digest = bodies.body[at]
@@ -79,7 +107,9 @@ def forged_both(run, folder, change) -> Store:  # noqa: F811
 def test_a_body_replaced_with_its_cases_proved_again_is_found(run, tmp_path, old_digest):  # noqa: F811
     found = verify(forged_both(run, tmp_path / "f", lambda f: replaced(f, old_digest)), workers=1)
     assert any("not what the scenario draws" in words for words in found.refused), str(found)
-    assert not any("is refused" in words for words in found.refused), "its proofs hold: only the drawing finds it"
+    assert not any("is refused" in words for words in found.refused), (
+        "its proofs hold: only the drawing finds it"
+    )
 
 
 @pytest.fixture(scope="module")
@@ -87,8 +117,13 @@ def own(tmp_path_factory) -> Path:
     """A run of a scenario of a reader's own."""
     folder = tmp_path_factory.mktemp("own")
     (folder / "own.py").write_text(OWN)
-    config = RunConfig(seed=3, methods=["ofg k=4"], timing={"cases": 0}, scenario_files=[str(folder / "own.py")],
-                       scenarios=[{"name": "own", "cases": 2}])
+    config = RunConfig(
+        seed=3,
+        methods=["ofg k=4"],
+        timing={"cases": 0},
+        scenario_files=[str(folder / "own.py")],
+        scenarios=[{"name": "own", "cases": 2}],
+    )
     from experiments.run.config import load_files
 
     load_files(config)
@@ -98,19 +133,27 @@ def own(tmp_path_factory) -> Path:
 
 def bench(*words) -> subprocess.CompletedProcess:
     """In a process of its own, which has not loaded the scenario's file."""
-    return subprocess.run([sys.executable, "-m", "experiments.cli", *map(str, words)], capture_output=True, text=True)
+    return subprocess.run(
+        [sys.executable, "-m", "experiments.cli", *map(str, words)], capture_output=True, text=True
+    )
 
 
 def test_own_cases_are_proved_and_with_trust_drawn_again(own):
     said = bench("verify", own, "--workers", 1)
-    assert said.returncode == 0 and "4 labels verified" in said.stdout and "add --trust" in " ".join(said.stdout.split()), said
+    assert (
+        said.returncode == 0
+        and "4 labels verified" in said.stdout
+        and "add --trust" in " ".join(said.stdout.split())
+    ), said
     said = bench("verify", own, "--trust", "--ask", "all", "--workers", 1)
-    assert said.returncode == 0 and "4 labels verified" in said.stdout and "--trust" not in said.stdout, said
+    assert (
+        said.returncode == 0 and "4 labels verified" in said.stdout and "--trust" not in said.stdout
+    ), said
 
 
 def test_an_own_case_moved_and_proved_again_is_found_with_trust_alone(own, tmp_path):
     def moved(frames):
-        (case, _) = next(iter(rows.cases_of(frames["cases"], frames["bodies"])))
+        case, _ = next(iter(rows.cases_of(frames["cases"], frames["bodies"])))
         q = case.query
         pose = type(q.pose_b)(q.pose_b.quaternion, q.pose_b.position + np.array([0.01, 0, 0]))
         proved(frames, 0, Query(q.question, q.a, q.b, q.pose_a, pose))
@@ -118,11 +161,14 @@ def test_an_own_case_moved_and_proved_again_is_found_with_trust_alone(own, tmp_p
     store = forged_both(own, tmp_path / "f", moved)
     assert bench("verify", store.folder, "--workers", 1).returncode == 0
     said = bench("verify", store.folder, "--trust", "--workers", 1)
-    assert said.returncode == 1 and "not what the scenario draws" in " ".join(said.stdout.split()), said
+    assert said.returncode == 1 and "not what the scenario draws" in " ".join(
+        said.stdout.split()
+    ), said
 
 
 def test_an_open_mesh_in_an_own_case_is_refused(own, tmp_path):
     """A cube without its top was read back, and a body inside it certified clear."""
+
     def opened(frames):
         bodies = frames["bodies"]
         cube = rows.body_of(next(bodies.itertuples()))
@@ -138,13 +184,20 @@ def test_an_open_mesh_in_an_own_case_is_refused(own, tmp_path):
 
 def test_a_case_drawn_at_a_later_attempt_is_accepted(tmp_path):
     """Its scenario rejects the first draw, which verify draws and labels again."""
-    config = RunConfig(seed=3, methods=["ofg k=4"], timing={"cases": 0}, scenarios=[{"name": "spin_clear", "cases": 2, "levels": [-1.0]}])
+    config = RunConfig(
+        seed=3,
+        methods=["ofg k=4"],
+        timing={"cases": 0},
+        scenarios=[{"name": "spin_clear", "cases": 2, "levels": [-1.0]}],
+    )
     runner.run(config, tmp_path / "run", 1)
     store = Store(tmp_path / "run")
     assert max(store.read("cases.parquet").attempt) > 0
     assert verify(store, workers=1).ok
     for attempt in (0, 1, 2):
-        forged_ = forged(tmp_path / "run", tmp_path / f"f{attempt}", lambda t: t.assign(attempt=attempt))
+        forged_ = forged(
+            tmp_path / "run", tmp_path / f"f{attempt}", lambda t: t.assign(attempt=attempt)
+        )
         assert not verify(forged_, workers=1).ok
 
 

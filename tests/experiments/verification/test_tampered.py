@@ -30,9 +30,9 @@ def altered(rng, value):
         return 0.5 if np.isnan(value) or value == 0 else value * (1 + rng.choice([1e-4, -0.3, 5.0]))
     if isinstance(value, list):
         i = int(rng.integers(len(value)))
-        return np.array([*value[:i], altered(rng, value[i]), *value[i + 1:]])
+        return np.array([*value[:i], altered(rng, value[i]), *value[i + 1 :]])
     at = int(rng.integers(len(value))) if value else 0
-    return value[:at] + rng.choice(["\u0000", "7", "{", "z"]) + value[at + 1:]
+    return value[:at] + rng.choice(["\u0000", "7", "{", "z"]) + value[at + 1 :]
 
 
 def test_a_cell_altered_by_chance_is_found_or_proves_the_same(run, tmp_path, monkeypatch):  # noqa: F811

@@ -129,13 +129,14 @@ def after_selection(runs: Runs):
 )
 def higher_k(runs: Runs):
     found = runs.answers("k")
+    # "inf": all faces
     ks = sorted(
         {
             float(m.split("=")[1])
             for m in found.method.unique()
             if m.startswith("ofg k=") and m.count(" ") == 1
         }
-    )  # "inf": all faces
+    )
     if len(ks) < 2:
         raise Missing("fewer than two k in run k")
     methods = [f"ofg k={k:g}" for k in ks]

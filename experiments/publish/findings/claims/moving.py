@@ -258,9 +258,10 @@ def chords(runs: Runs):
         f" faces {every}, which is not the selection's doing; selections at several times alone"
         f" {later}; arcs in place of chords alone {arcs}."
     )
+    # levels of both are angles
     gentle = found[
         found.scenario.isin(["spin_side", "rotational_contact"]) & (found.level <= np.pi / 4)
-    ]  # levels of both are angles
+    ]
     if len(gentle):
         text += (
             " Up to the article's 45 degrees in a step (`spin_side`, `rotational_contact`): k = 8"

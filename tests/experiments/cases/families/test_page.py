@@ -3,25 +3,31 @@
 import pytest
 from PIL import Image
 
-from experiments.publish.gallery import draw, page
 from experiments.cases.families import scenarios
+from experiments.publish.gallery import draw, page
 
 OWN = [name for name in scenarios() if (page.FOLDER / f"{name}.py").is_file()]
 
 
 def test_page_is_up_to_date():
     assert page.text() == (page.FOLDER / "README.md").read_text(encoding="utf-8"), (
-        "experiments/cases/families/README.md is out of date: run python -m experiments.publish.gallery.page")
+        "experiments/cases/families/README.md is out of date: run python -m"
+        " experiments.publish.gallery.page"
+    )
 
 
 @pytest.mark.parametrize("name", OWN)
 def test_every_family_has_a_view_and_a_small_picture(name):
     assert name in draw.VIEWS, "say in draw.py which case shows this family best"
     path = page.FOLDER / "figures" / f"{name}.png"
-    assert path.is_file(), "run python -m experiments.publish.gallery.draw experiments/cases/families/figures"
+    assert path.is_file(), (
+        "run python -m experiments.publish.gallery.draw experiments/cases/families/figures"
+    )
     assert path.stat().st_size < 60_000
     assert Image.open(path).text["case"] == draw.caption(draw.pictured(name)), (
-        "the picture is out of date: run python -m experiments.publish.gallery.draw experiments/cases/families/figures")
+        "the picture is out of date: run python -m experiments.publish.gallery.draw"
+        " experiments/cases/families/figures"
+    )
 
 
 def test_picture_shows_both_bodies(tmp_path):

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from experiments.cases.scenario import snap
 from experiments.cases.placement import FEATURE_PAIRS, norm_matrix, rest_on, seat
+from experiments.cases.scenario import snap
 from experiments.cases.shapes import CONVEX_KINDS, any_convex, convex
 
 
@@ -17,7 +17,9 @@ def exact(values):
 
 
 def heights(s, body, rotation):
-    """Heights of the vertices above the contact plane, as exact fractions of a common positive unit."""
+    """Heights of the vertices above the contact plane, as exact fractions of a common positive
+    unit.
+    """
     world = exact(norm_matrix(rotation)) @ exact(body.vertices).T
     return exact(s.matrix[:, 2]) @ world
 
@@ -31,7 +33,9 @@ def test_rest_on_stands_exactly_on_the_feature(kind, feature, count):
     assert len(ground) >= count if feature == "face" else len(ground) == count
     if feature == "edge":
         assert (ground[:, 1] == 0).all() and ground[:, 0].min() < 0 < ground[:, 0].max()
-    if feature == "face":  # the origin is inside the ground polygon: no line through it leaves all of it on one side
+    if (
+        feature == "face"
+    ):  # the origin is inside the ground polygon: no line through it leaves all of it on one side
         turn = np.sort(np.arctan2(ground[:, 1], ground[:, 0]))
         assert np.diff(np.append(turn, turn[0] + 2 * np.pi)).max() < np.pi
 

@@ -1,10 +1,12 @@
-"""What is drawn is the case; a scenario may declare that it is rounded to float32 first, bodies included."""
+"""What is drawn is the case; a scenario may declare that it is rounded to float32 first, bodies
+included.
+"""
 
 import numpy as np
 import pytest
 
-from experiments.cases.scenario import Draft, Scenario, ScenarioError, snap, snap_body
 from experiments.cases.families import scenarios
+from experiments.cases.scenario import Draft, Scenario, ScenarioError, snap, snap_body
 from ofg import Body, Motion, Pose
 
 CORNERS = np.array(list(np.ndindex(2, 2, 2)), float)
@@ -13,15 +15,30 @@ ODD = CORNERS * 0.1 + 1 / 3  # no coordinate of it is a float32 number
 
 def bodies():
     hull = Body.convex(ODD, "hull")
-    return [hull, Body.mesh(hull.vertices, hull.faces, "mesh"), Body.union([hull, Body.convex(ODD + 0.7)], "union")]
+    return [
+        hull,
+        Body.mesh(hull.vertices, hull.faces, "mesh"),
+        Body.union([hull, Body.convex(ODD + 0.7)], "union"),
+    ]
 
 
 def scenario(precision, a, **motions):
     third = Pose(position=(1 / 3, 5, 0))
-    return Scenario("mine", "motion", "e", "a", (1.0,), lambda rng, level: Draft(a, a, third, Pose(), **motions), **precision)
+    return Scenario(
+        "mine",
+        "motion",
+        "e",
+        "a",
+        (1.0,),
+        lambda rng, level: Draft(a, a, third, Pose(), **motions),
+        **precision,
+    )
 
 
-MOTIONS = {"motion": Motion((0.1, 0, 0), (0.1, 0, 1), 0.3, (0.7, 0, 0)), "motion_b": Motion((0.2, 0, 0))}
+MOTIONS = {
+    "motion": Motion((0.1, 0, 0), (0.1, 0, 1), 0.3, (0.7, 0, 0)),
+    "motion_b": Motion((0.2, 0, 0)),
+}
 
 
 @pytest.mark.parametrize("a", bodies(), ids=lambda body: body.kind)
@@ -47,7 +64,9 @@ def test_float32_rounds_every_number(a):
 def test_a_body_that_rounding_flattens_is_no_case():
     far = Body.convex(CORNERS * 1e-9 + 1, "crumb")
     assert scenario({}, far).case(0, 1.0, 0).query.a is far
-    with pytest.raises(ScenarioError, match="rounded to float32, a body is none any more. Body 'crumb'"):
+    with pytest.raises(
+        ScenarioError, match="rounded to float32, a body is none any more. Body 'crumb'"
+    ):
         scenario({"precision": "float32"}, far).case(0, 1.0, 0)
 
 
@@ -64,7 +83,9 @@ def test_another_precision_is_refused():
 
 @pytest.mark.parametrize("family", scenarios().values(), ids=scenarios())
 def test_families_here_draw_float32_bodies_already(family):
-    """Their shapes are made of float32 numbers, so that declaring the precision makes no body anew."""
+    """Their shapes are made of float32 numbers, so that declaring the precision makes no body
+    anew.
+    """
     assert family.precision == "float32"
     for level in family.levels:
         draft = family.generate(np.random.default_rng([7, len(family.name)]), level)

@@ -1,5 +1,6 @@
-"""One small run with every kind of question, body and outcome, for all tests of the report. Some of its clear cases are said to
-touch, though they do not: no scenario aims at that."""
+"""One small run with every kind of question, body and outcome, for all tests of the report. Some of
+its clear cases are said to touch, though they do not: no scenario aims at that.
+"""
 
 import pytest
 
@@ -26,7 +27,13 @@ CONFIG = RunConfig(
     tables=[
         {"name": "by-level", "title": "Wrong by level.", "value": "wrong"},
         {"name": "by-form", "title": "Misses by form.", "value": "misses", "columns": "form"},
-        {"name": "by-band", "title": "False alarms by band.", "value": "false alarms", "columns": "band", "question": "overlap"},
+        {
+            "name": "by-band",
+            "title": "False alarms by band.",
+            "value": "false alarms",
+            "columns": "band",
+            "question": "overlap",
+        },
         {
             "name": "walls",
             "title": "Tunnelled.",
@@ -56,5 +63,7 @@ def run(tmp_path_factory) -> Store:
     runner.run(CONFIG, folder, workers=2)
     store = Store(folder)
     cases = store.read("cases.parquet")
-    store.write(cases.assign(touching=(cases.label == "clear") & (cases["index"] == 0)), "cases.parquet")
+    store.write(
+        cases.assign(touching=(cases.label == "clear") & (cases["index"] == 0)), "cases.parquet"
+    )
     return store

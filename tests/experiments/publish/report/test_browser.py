@@ -1,5 +1,6 @@
-"""The report in a real browser without a screen: it opens, counts as the run does, filters, leads to cases, and plays them,
-without an error."""
+"""The report in a real browser without a screen: it opens, counts as the run does, filters, leads
+to cases, and plays them, without an error.
+"""
 
 import json
 import os
@@ -10,17 +11,24 @@ import pandas as pd
 import pytest
 
 from experiments.analysis import metrics
-from experiments.publish.report import explain, report
-from experiments.run.folder.rows import case_row
 from experiments.cases.families import get
 from experiments.cases.label import Truth
+from experiments.publish.report import explain, report
+from experiments.run.folder.rows import case_row
 
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
+CHROMIUM = next(
+    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))),
+    None,
+)
 
 
 def absent(what: str) -> None:
-    """Skips these tests, and says why; where a browser was promised (OFG_BROWSER=required, as in continuous integration) they fail."""
-    (pytest.fail if os.environ.get("OFG_BROWSER") == "required" else pytest.skip)(f"the report is not tried in a browser: {what}")
+    """Skips these tests, and says why; where a browser was promised (OFG_BROWSER=required, as in
+    continuous integration) they fail.
+    """
+    (pytest.fail if os.environ.get("OFG_BROWSER") == "required" else pytest.skip)(
+        f"the report is not tried in a browser: {what}"
+    )
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +46,8 @@ def driver():
 @pytest.fixture(scope="module")
 def browser(driver):
     browser = driver.chromium.launch(
-        executable_path=CHROMIUM, args=["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+        executable_path=CHROMIUM,
+        args=["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
     )
     yield browser
     browser.close()
@@ -46,7 +55,9 @@ def browser(driver):
 
 @pytest.fixture
 def open_page(browser):
-    """Opens a file; at the end there must have been no error, no warning of the page's own and no request to anywhere."""
+    """Opens a file; at the end there must have been no error, no warning of the page's own and no
+    request to anywhere.
+    """
     trouble, pages = [], []
 
     def opened(path, **options):
@@ -55,7 +66,11 @@ def open_page(browser):
         page.on("pageerror", lambda e: trouble.append(str(e)))
         page.on(
             "request",
-            lambda r: trouble.append(f"asked for {r.url}") if not r.url.startswith(("file:", "blob:", "data:")) else None,
+            lambda r: (
+                trouble.append(f"asked for {r.url}")
+                if not r.url.startswith(("file:", "blob:", "data:"))
+                else None
+            ),
         )
         page.set_default_timeout(30_000)
         page.goto(f"file://{path}")
@@ -85,7 +100,9 @@ def choose(page, question: str) -> None:
 
 
 def until(page, condition: str) -> None:
-    """Wait for a condition. Playwright's own way evaluates text in the page, which its Content-Security-Policy forbids."""
+    """Wait for a condition. Playwright's own way evaluates text in the page, which its
+    Content-Security-Policy forbids.
+    """
     for _ in range(300):
         if page.evaluate(condition):
             return
@@ -96,7 +113,9 @@ def until(page, condition: str) -> None:
 def board(page) -> pd.DataFrame:
     """The leaderboard as it stands on the page."""
     head, *rows = page.evaluate(
-        "[...document.querySelectorAll('#leaderboard tr')].map((r) => [...r.children].map((c) => [...c.childNodes].filter((n) => n.nodeName !== 'SMALL').map((n) => n.textContent).join('')))"
+        "[...document.querySelectorAll('#leaderboard tr')].map((r) => [...r.children].map((c) =>"
+        " [...c.childNodes].filter((n) => n.nodeName !== 'SMALL').map((n) =>"
+        " n.textContent).join('')))"
     )
     return pd.DataFrame(rows, columns=[h.strip(" ↑↓") for h in head]).set_index("Method")
 
@@ -112,9 +131,13 @@ def test_the_leaderboard_counts_as_the_run_does(open_page, written, found):
         for row in answering.itertuples():
             label = row.Index
             assert shown.loc[label, "Misses"] == (f"{row.misses}/{row.hits}" if row.hits else "–")
-            assert shown.loc[label, "False alarms"] == (f"{row.false_alarms}/{row.clears}" if row.clears else "–")
+            assert shown.loc[label, "False alarms"] == (
+                f"{row.false_alarms}/{row.clears}" if row.clears else "–"
+            )
             if question != "overlap":
-                assert shown.loc[label, "Tunnelled"] == (f"{row.tunnelled}/{row.can_tunnel}" if row.can_tunnel else "–")
+                assert shown.loc[label, "Tunnelled"] == (
+                    f"{row.tunnelled}/{row.can_tunnel}" if row.can_tunnel else "–"
+                )
 
 
 def test_intervals_are_those_of_scipy(open_page, written):
@@ -129,12 +152,24 @@ def test_intervals_are_those_of_scipy(open_page, written):
 
 
 def test_times_are_those_of_the_tables(open_page, written, run):
-    page, names = open_page(written), {"question": "question", "faces": "sizes", "situation": "situation"}
+    page, names = (
+        open_page(written),
+        {
+            "question": "question",
+            "faces": "sizes",
+            "situation": "situation",
+        },
+    )
     for by in [("question",), ("question", "faces"), ("question", "faces", "situation")]:
         for row in metrics.costs(run, by).itertuples():
             link = {names[key]: getattr(row, key) for key in by}
-            here = page.evaluate("([label, link]) => cost(D.method.get(label), 'python', casesOf(link))", [row.method, link])
-            assert np.allclose([here["gross"], here["net"], here["n"]], [row.gross, row.net, row.cases]), (row.method, link)
+            here = page.evaluate(
+                "([label, link]) => cost(D.method.get(label), 'python', casesOf(link))",
+                [row.method, link],
+            )
+            assert np.allclose(
+                [here["gross"], here["net"], here["n"]], [row.gross, row.net, row.cases]
+            ), (row.method, link)
 
 
 def test_filters_narrow_every_figure(open_page, written, found):
@@ -142,16 +177,28 @@ def test_filters_narrow_every_figure(open_page, written, found):
     page.select_option("[data-name=Scenario]", "deep")
     until(page, "document.querySelector('.filters .count').textContent.startsWith('3 cases')")
     rates = metrics.rates(found[found.scenario == "deep"], ["method"]).set_index("method")
-    assert (board(page)["Misses"] == [f"{rates.misses[m]}/{rates.hits[m]}" for m in board(page).index]).all()
-    until(page, "document.querySelector('#plot')?.data?.length > 0 || document.querySelector('#plot').hidden")
+    assert (
+        board(page)["Misses"] == [f"{rates.misses[m]}/{rates.hits[m]}" for m in board(page).index]
+    ).all()
+    until(
+        page,
+        "document.querySelector('#plot')?.data?.length > 0 ||"
+        " document.querySelector('#plot').hidden",
+    )
     page.click(".filters button:text('Clear')")
     until(page, "document.querySelector('#plot')?.data?.length > 0")
-    points = page.evaluate("document.querySelector('#plot').data.flatMap((t) => t.customdata || [])")
+    points = page.evaluate(
+        "document.querySelector('#plot').data.flatMap((t) => t.customdata || [])"
+    )
     assert sorted(points) == sorted(board(page).index)
     page.select_option("[data-name=Up]", "misses")
     until(page, "document.querySelector('#plot').layout.yaxis.title.text.startsWith('misses')")
     choose(page, "motion")
-    until(page, "document.querySelector('#plot').data.flatMap((t) => t.customdata || []).includes('fcl-naive-mesh iterations=10')")
+    until(
+        page,
+        "document.querySelector('#plot').data.flatMap((t) => t.customdata ||"
+        " []).includes('fcl-naive-mesh iterations=10')",
+    )
 
 
 def test_every_cell_by_difficulty_leads_to_its_cases(open_page, written):
@@ -168,23 +215,34 @@ def test_every_cell_by_difficulty_leads_to_its_cases(open_page, written):
 
 
 def test_cells_of_saved_tables_lead_where_the_data_say(open_page, written, run, found):
+    from experiments.analysis.views import gap_bands
     from experiments.publish.report import payload
     from experiments.publish.report.cells import select
-    from experiments.analysis.views import gap_bands
     from experiments.run.timing import situation_of, size_of
 
     page, checked = open_page(written), 0
-    frame = found.assign(band=gap_bands(found.relative_gap)[0], sizes=size_of(found.faces), situation=situation_of(found))
+    frame = found.assign(
+        band=gap_bands(found.relative_gap)[0],
+        sizes=size_of(found.faces),
+        situation=situation_of(found),
+    )
     for table in payload.of_run(run)["tables"]:
-        for link in (link for row in table["links"] for link in row if link and link.get("kind") != "clocked"):
-            there = page.evaluate("(link) => casesOf(link).map((i) => D.cases.case[i])", json.loads(json.dumps(link)))
+        for link in (
+            link for row in table["links"] for link in row if link and link.get("kind") != "clocked"
+        ):
+            there = page.evaluate(
+                "(link) => casesOf(link).map((i) => D.cases.case[i])", json.loads(json.dumps(link))
+            )
             assert sorted(there) == sorted(select(frame, link).case.unique()), link
             checked += 1
     assert checked > 100
 
 
 def picture(page) -> str:
-    return page.evaluate("(() => { openView.scene().draw(); return document.querySelector('canvas.stage').toDataURL(); })()")
+    return page.evaluate(
+        "(() => { openView.scene().draw(); return"
+        " document.querySelector('canvas.stage').toDataURL(); })()"
+    )
 
 
 def test_a_case_opens_plays_and_closes_by_keyboard(open_page, written):
@@ -197,8 +255,10 @@ def test_a_case_opens_plays_and_closes_by_keyboard(open_page, written):
     page.wait_for_selector("#case[data-ready]")
     assert (
         page.evaluate(
-            "(() => { const gl = openView.scene().renderer.getContext(), p = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight); openView.scene().draw(); "
-            "gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, p); return p.filter((v, i) => i % 4 === 3 && v > 0).length; })()"
+            "(() => { const gl = openView.scene().renderer.getContext(), p = new Uint8Array(4 *"
+            " gl.drawingBufferWidth * gl.drawingBufferHeight); openView.scene().draw();"
+            " gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA,"
+            " gl.UNSIGNED_BYTE, p); return p.filter((v, i) => i % 4 === 3 && v > 0).length; })()"
         )
         > 1000
     )
@@ -224,13 +284,15 @@ def test_a_case_opens_plays_and_closes_by_keyboard(open_page, written):
 
 
 def test_planes_of_the_page_separate_the_bodies_over_the_certified_time(open_page, written):
-    """Of every case that the page can draw: the tightest plane has a clearance at every time up to the impact, the point lies
-    in both boxes."""
+    """Of every case that the page can draw: the tightest plane has a clearance at every time up to
+    the impact, the point lies in both boxes.
+    """
     page = open_page(written)
     worst = page.evaluate("""async () => {
       const found = [];
       for (const i of Object.keys(D.drawn).map(Number)) {
-        const g = await geometryOf(i), c = D.cases, until = c.label[i] === "hit" ? c.t_lo[i] : g.moving ? 1 : 0;
+        const g = await geometryOf(i), c = D.cases;
+        const until = c.label[i] === "hit" ? c.t_lo[i] : g.moving ? 1 : 0;
         if (!g.proof.clear) continue;
         for (let k = 0; k <= 40; k++) {
           const plane = planeAt(g, g.proof.clear, until * k / 40);
@@ -240,7 +302,9 @@ def test_planes_of_the_page_separate_the_bodies_over_the_certified_time(open_pag
       return found;
     }""")
     assert len(worst) > 400
-    assert all(gap is not None and gap > -1e-13 for _, gap in worst), [w for w in worst if w[1] is None or w[1] <= -1e-13][:3]
+    assert all(gap is not None and gap > -1e-13 for _, gap in worst), [
+        w for w in worst if w[1] is None or w[1] <= -1e-13
+    ][:3]
 
 
 def test_dark_and_narrow(open_page, written):
@@ -255,7 +319,9 @@ def test_dark_and_narrow(open_page, written):
 
 
 def test_one_case_from_a_run_and_from_a_file(open_page, run, found, tmp_path):
-    missed = found[(found.question == "motion") & (found.outcome == "miss") & (found.method == "ofg k=4")].case.iloc[0]
+    missed = found[
+        (found.question == "motion") & (found.outcome == "miss") & (found.method == "ofg k=4")
+    ].case.iloc[0]
     made = explain.from_run(run, missed)
     explain.save(made, tmp_path / "case.json")
     texts = [explain.page(m, {}) for m in (made, explain.from_file(tmp_path / "case.json"))]
@@ -263,7 +329,8 @@ def test_one_case_from_a_run_and_from_a_file(open_page, run, found, tmp_path):
     (tmp_path / "case.html").write_text(texts[0])
     page = open_page(tmp_path / "case.html")
     verdicts = page.evaluate(
-        "[...document.querySelectorAll('#verdicts tbody tr')].map((r) => [r.children[0].textContent, r.children[1].firstChild.textContent.slice(2)])"
+        "[...document.querySelectorAll('#verdicts tbody tr')].map((r) =>"
+        " [r.children[0].textContent, r.children[1].firstChild.textContent.slice(2)])"
     )
     part = found[(found.case == missed) & ~found.detail.str.startswith("does not answer")]
     assert dict(verdicts) == dict(zip(part.method, part.outcome))

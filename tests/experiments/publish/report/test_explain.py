@@ -1,4 +1,6 @@
-"""ofg-bench explain: from a run, from its file, from a file written by hand; errors name the remedy."""
+"""ofg-bench explain: from a run, from its file, from a file written by hand; errors name the
+remedy.
+"""
 
 import json
 
@@ -8,17 +10,23 @@ import pytest
 from typer.testing import CliRunner
 
 from experiments.cases.case import Case
+from experiments.cases.label import Truth
 from experiments.cli.app import app
-from experiments.run.config import ConfigError
 from experiments.publish.report import explain
+from experiments.run.config import ConfigError
 from experiments.run.folder.rows import case_row
 from experiments.run.folder.store import StoreError
-from experiments.cases.label import Truth
 from ofg import Body, Motion, Pose, Query
 
 CUBE = [[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]
 HAND = {
-    "case": {"question": "translation", "body_a": "cube", "body_b": "cube", "position_a": [0, 0, 5], "displacement": [0, 0, -8]},
+    "case": {
+        "question": "translation",
+        "body_a": "cube",
+        "body_b": "cube",
+        "position_a": [0, 0, 5],
+        "displacement": [0, 0, -8],
+    },
     "bodies": [{"body": "cube", "kind": "convex", "vertices": np.ravel(CUBE).tolist()}],
 }
 
@@ -28,7 +36,9 @@ def test_a_case_comes_back_from_its_file_as_it_was(run, tmp_path):
         made = explain.from_run(run, name)
         explain.save(made, tmp_path / "case.json")
         back = explain.from_file(tmp_path / "case.json")
-        assert explain._listed({**back.row, "attempt": 0}) == explain._listed({**made.row, "attempt": 0}), name
+        assert explain._listed({**back.row, "attempt": 0}) == explain._listed(
+            {**made.row, "attempt": 0}
+        ), name
         pd.testing.assert_frame_equal(explain.verdicts(back), explain.verdicts(made))
 
 
@@ -53,7 +63,9 @@ def test_a_file_by_hand_is_certified_and_asked(tmp_path):
     assert found.truth.label == "hit" and found.truth.t_lo <= 3 / 8 <= found.truth.t_hi
     lines = [line.split() for line in result.output.splitlines()]
     assert ["ofg", "k=12", "right", "0.375", "0"] in lines
-    assert "certified hit" in result.output and "0.125" in next(line for line in lines if line[:1] == ["fcl-convex-substeps"])
+    assert "certified hit" in result.output and "0.125" in next(
+        line for line in lines if line[:1] == ["fcl-convex-substeps"]
+    )
     assert "content-security-policy" in (tmp_path / "mine.html").read_text().lower()
 
 
@@ -93,17 +105,29 @@ def test_what_is_not_there_is_said(run, tmp_path):
 def test_a_motion_in_words():
     assert explain.motion_words(Motion()) == "rests"
     turning = Motion((0, 0, -2), (0, 0, 1), 1.5, (1, 0, 0))
-    assert explain.motion_words(turning) == (
-        "moves by (0, 0, -2), turns by 1.5 rad about the axis (0, 0, 1) through its point (1, 0, 0)"
+    assert (
+        explain.motion_words(turning)
+        == "moves by (0, 0, -2), turns by 1.5 rad about the axis (0, 0, 1) through its point (1,"
+        " 0, 0)"
     )
 
 
 def test_a_file_keeps_both_motions(tmp_path):
-    cube, turning = Body.convex(np.array(list(np.ndindex(2, 2, 2)), float)), Motion((1, 0, 0), angle=2.0, about=(0, 1, 0))
-    query = Query("motion", cube, cube, Pose(), Pose(position=(5, 0, 0)), Motion((0, 1, 0)), turning)
-    case, truth = Case("mine/1/0000", "mine", 1.0, 0, query), Truth("clear", start="clear", end="clear")
+    cube, turning = (
+        Body.convex(np.array(list(np.ndindex(2, 2, 2)), float)),
+        Motion((1, 0, 0), angle=2.0, about=(0, 1, 0)),
+    )
+    query = Query(
+        "motion", cube, cube, Pose(), Pose(position=(5, 0, 0)), Motion((0, 1, 0)), turning
+    )
+    case, truth = (
+        Case("mine/1/0000", "mine", 1.0, 0, query),
+        Truth("clear", start="clear", end="clear"),
+    )
     said = pd.DataFrame(columns=explain.COLUMNS).astype({"hit": "boolean", "time": float})
-    explain.save(explain.Explained(case, truth, case_row(case, truth, 0), said), tmp_path / "case.json")
+    explain.save(
+        explain.Explained(case, truth, case_row(case, truth, 0), said), tmp_path / "case.json"
+    )
     back = explain.from_file(tmp_path / "case.json").case.query
     assert explain.motion_words(back.motion) == explain.motion_words(query.motion)
     assert explain.motion_words(back.motion_b) == explain.motion_words(query.motion_b)
@@ -114,8 +138,16 @@ def test_pieces_of_a_wrong_form_are_refused_by_their_field(run, tmp_path):
     explain.save(explain.from_run(run, name), tmp_path / "case.json")
     content = json.loads((tmp_path / "case.json").read_text())
     row = content["pieces"][0]
-    for wrong in (row, [1], [{**row, "label": "maybe"}], [{**row, "case": "x/1/0000"}], [{"case": name}], [row, row],
-                  [{**row, "touching": None}], [{**row, "gap": "far"}]):
+    for wrong in (
+        row,
+        [1],
+        [{**row, "label": "maybe"}],
+        [{**row, "case": "x/1/0000"}],
+        [{"case": name}],
+        [row, row],
+        [{**row, "touching": None}],
+        [{**row, "gap": "far"}],
+    ):
         (tmp_path / "wrong.json").write_text(json.dumps({**content, "pieces": wrong}))
         with pytest.raises(ConfigError, match="pieces"):
             explain.from_file(tmp_path / "wrong.json")

@@ -19,10 +19,20 @@ def table(run, name):
 def counted(part, by):
     """Misses, false alarms, wrong, beyond, contained and judged of each group."""
     judged = part.outcome.isin(["right", "miss", "false alarm"])
-    flags = pd.DataFrame({
-        "misses": part.outcome == "miss", "false_alarms": part.outcome == "false alarm", "wrong": part.outcome.isin(["miss", "false alarm"]),
-        "beyond": part.outcome.isin(["miss", "false alarm"]) & ~(part.gap.abs() <= part.tolerance), "contained": part.outcome == "contained",
-        "judged": judged, "hits": judged & (part.label == "hit"), "clears": judged & (part.label == "clear")})
+    flags = pd.DataFrame(
+        {
+            "misses": part.outcome == "miss",
+            "false_alarms": part.outcome == "false alarm",
+            "wrong": part.outcome.isin(["miss", "false alarm"]),
+            "beyond": (
+                part.outcome.isin(["miss", "false alarm"]) & ~(part.gap.abs() <= part.tolerance)
+            ),
+            "contained": part.outcome == "contained",
+            "judged": judged,
+            "hits": judged & (part.label == "hit"),
+            "clears": judged & (part.label == "clear"),
+        }
+    )
     return flags.groupby([part[name] for name in by]).sum()
 
 
@@ -38,7 +48,10 @@ def same(run, name, mine, by):
 @pytest.mark.parametrize("question", ["overlap", "translation", "motion"])
 def test_tables_of_a_question(run, said, question):
     part = said[said.question == question]
-    for name, by in ((f"accuracy-{question}", ["method"]), (f"scenarios-{question}", ["method", "scenario"])):
+    for name, by in (
+        (f"accuracy-{question}", ["method"]),
+        (f"scenarios-{question}", ["method", "scenario"]),
+    ):
         same(run, name, counted(part, by), by)
     kept = (part.status == "ok").groupby(part.method).mean()
     own = part[part.method.isin(set(table(run, f"accuracy-{question}").method) - {"CoACD pieces"})]
@@ -57,11 +70,26 @@ def test_the_leaderboard(run, said):
 def test_the_bands_of_the_gap(run, said):
     part = said[(said.question == "overlap") & said.relative_gap.notna()]
     edges = [-float("inf"), -1e-2, -1e-4, -1e-7, 0.0, 1e-7, 1e-4, 1e-2, float("inf")]
-    names = ["below -1e-2", "-1e-2 to -1e-4", "-1e-4 to -1e-7", "-1e-7 to 0", "0 to 1e-7", "1e-7 to 1e-4", "1e-4 to 1e-2", "above 1e-2"]
-    mine = counted(part.assign(band=pd.cut(part.relative_gap, edges, labels=names).astype(str)), ["method", "band"])
+    names = [
+        "below -1e-2",
+        "-1e-2 to -1e-4",
+        "-1e-4 to -1e-7",
+        "-1e-7 to 0",
+        "0 to 1e-7",
+        "1e-7 to 1e-4",
+        "1e-4 to 1e-2",
+        "above 1e-2",
+    ]
+    mine = counted(
+        part.assign(band=pd.cut(part.relative_gap, edges, labels=names).astype(str)),
+        ["method", "band"],
+    )
     printed = table(run, "gap-overlap").set_index(["method", "band"])
     methods = printed.index.get_level_values("method").unique()
     mine = mine.loc[mine.index.get_level_values("method").isin(methods)]
-    assert set(printed.index) == set(mine.index) and len(set(printed.index.get_level_values("band"))) > 1
+    assert (
+        set(printed.index) == set(mine.index)
+        and len(set(printed.index.get_level_values("band"))) > 1
+    )
     for column in ("misses", "false_alarms", "beyond", "contained", "hits", "clears"):
         assert printed[column].to_dict() == mine[column].to_dict(), column

@@ -1,5 +1,6 @@
-"""What the page is given equals what the run holds; every linked cell of a table leads to exactly the cases it counts; nothing
-points outside."""
+"""What the page is given equals what the run holds; every linked cell of a table leads to exactly
+the cases it counts; nothing points outside.
+"""
 
 import base64
 import gzip
@@ -61,7 +62,9 @@ COUNTED = {
 
 
 def counted(text: str) -> int | None:
-    """The number that a cell of an accuracy table counts: 3 of '3/40', of '3', of '12/80'; None where it is no count."""
+    """The number that a cell of an accuracy table counts: 3 of '3/40', of '3', of '12/80'; None
+    where it is no count.
+    """
     match = re.fullmatch(r"(\d+)(?:/\d+)?", text)
     return int(match[1]) if match else None
 
@@ -83,9 +86,17 @@ def test_every_linked_cell_leads_to_the_rows_it_counts(run, found):
                 elif text == "all":
                     assert len(rows) == len(select(found, {**link, "kind": "all"}))
                 elif kind in COUNTED:
-                    assert len(rows) == int(total) and COUNTED[kind](rows).sum() == number, (table.name, column, text)
+                    assert len(rows) == int(total) and COUNTED[kind](rows).sum() == number, (
+                        table.name,
+                        column,
+                        text,
+                    )
                 elif kind == "timed":
-                    assert len(rows) and (column != "times" or len(rows) == number), (table.name, column, text)
+                    assert len(rows) and (column != "times" or len(rows) == number), (
+                        table.name,
+                        column,
+                        text,
+                    )
                 elif kind == "clocked":
                     assert len(rows), (table.name, column, text)
                 elif column in ("latest", "earliest"):
@@ -116,8 +127,14 @@ def test_bodies_come_back_bit_for_bit(run, given):
     for i, (case, _) in enumerate(cases_of(rows, run.read("bodies.parquet"))):
         for index, body in zip(given["drawn"][i], (case.query.a, case.query.b)):
             entry = bodies[index]
-            for (start, kind, count), array in ((entry["v"], body.vertices), (entry["f"], body.faces)):
-                assert np.array_equal(np.frombuffer(given["bytes"], "<" + kind, 3 * count, start).reshape(-1, 3), array)
+            for (start, kind, count), array in (
+                (entry["v"], body.vertices),
+                (entry["f"], body.faces),
+            ):
+                assert np.array_equal(
+                    np.frombuffer(given["bytes"], "<" + kind, 3 * count, start).reshape(-1, 3),
+                    array,
+                )
             done += 1
     assert done == 2 * len(rows)
     assert len({(b["v"][0], b["f"][0]) for b in bodies}) == len(bodies)
@@ -138,7 +155,13 @@ def test_planes_cover_the_time_that_the_certificate_is_for(run):
         if "clear" not in made:
             continue
         convex = case.query.a.kind == case.query.b.kind == "convex"
-        until = 0.0 if case.query.question == "overlap" else 1.0 if truth.label == "clear" else truth.t_lo
+        until = (
+            0.0
+            if case.query.question == "overlap"
+            else 1.0
+            if truth.label == "clear"
+            else truth.t_lo
+        )
         leaves = made["clear"]["leaves"]
         assert max(leaf[1] for leaf in leaves) == until and min(leaf[0] for leaf in leaves) == 0.0
         if convex:
@@ -156,11 +179,19 @@ def test_planes_separate_the_elements_they_are_for(run):
             if s > 0:
                 continue
             points = []
-            for body, pose, key, lo, hi in ((q.a, q.pose_a, "order_a", a0, a1), (q.b, q.pose_b, "order_b", b0, b1)):
-                elements = [body.vertices[f] for f in body.faces] if body.kind == "mesh" else [p.vertices for p in body.pieces]
+            for body, pose, key, lo, hi in (
+                (q.a, q.pose_a, "order_a", a0, a1),
+                (q.b, q.pose_b, "order_b", b0, b1),
+            ):
+                elements = (
+                    [body.vertices[f] for f in body.faces]
+                    if body.kind == "mesh"
+                    else [p.vertices for p in body.pieces]
+                )
                 order = proof.get(key, range(len(elements)))[slice(lo, hi)]
                 points.append(
-                    np.concatenate([elements[i] for i in order]) @ pose.rotation.T + (pose.position - q.pose_a.position)
+                    np.concatenate([elements[i] for i in order]) @ pose.rotation.T
+                    + (pose.position - q.pose_a.position)
                 )
             assert (points[1] @ n).min() > (points[0] @ n).max() - 1e-9 * q.a.size, case.id
             seen += 1
@@ -176,7 +207,9 @@ def test_the_page_names_no_network_holds_the_data_and_is_the_same_when_made_agai
         and "url(http" not in text
     )
     assert "default-src 'none'" in text
-    block = re.search(r'<script type="application/octet-stream" id="data">([^<]*)</script>', text)[1]
+    block = re.search(r'<script type="application/octet-stream" id="data">([^<]*)</script>', text)[
+        1
+    ]
     assert json.loads(gzip.decompress(base64.b64decode(block))) == json.loads(
         json.dumps(payload._plain({k: v for k, v in given.items() if k != "bytes"}))
     )
@@ -184,8 +217,14 @@ def test_the_page_names_no_network_holds_the_data_and_is_the_same_when_made_agai
 
 
 def test_what_the_page_says_of_ofg_is_what_the_run_observed(run, given):
-    said = run.read("observations.parquet").query("status == 'ok'").set_index(["case", "method"]).hit
-    pairs = [(given["cases"]["case"][place], label, x["hit"]) for place, overlays in given["ofg"].items() for label, x in overlays.items()]
+    said = (
+        run.read("observations.parquet").query("status == 'ok'").set_index(["case", "method"]).hit
+    )
+    pairs = [
+        (given["cases"]["case"][place], label, x["hit"])
+        for place, overlays in given["ofg"].items()
+        for label, x in overlays.items()
+    ]
     assert len(pairs) > 30 and {hit for *_, hit in pairs} == {True, False}
     assert [hit for *_, hit in pairs] == [said[case, label] for case, label, _ in pairs]
 

@@ -1,5 +1,6 @@
-"""The selections that the page shows are those of the core: asked about them alone, all against all, the core gives OFG's own
-answer."""
+"""The selections that the page shows are those of the core: asked about them alone, all against
+all, the core gives OFG's own answer.
+"""
 
 import numpy as np
 import pytest
@@ -30,7 +31,11 @@ def alone(body: ofg.Body, faces: list[int]) -> _core.Solid:
     """A surface of these faces, without the other vertices of the body."""
     used, index = np.unique(body.faces[faces], return_inverse=True)
     return _core.Solid(
-        np.ascontiguousarray(body.vertices[used]), np.ascontiguousarray(index.reshape(-1, 3), dtype=np.int32), False, [], []
+        np.ascontiguousarray(body.vertices[used]),
+        np.ascontiguousarray(index.reshape(-1, 3), dtype=np.int32),
+        False,
+        [],
+        [],
     )
 
 
@@ -42,7 +47,14 @@ def test_all_pairs_of_the_selected_faces_give_the_answer_of_ofg(run, options):
         made = selection.trace(q, options, truth.t_hi)
         motions = [row(x)[None] for x in (q.pose_a, q.pose_b, q.motion, ofg.Motion())]
         found = _core.ask_many(
-            alone(q.a, made["a"]), alone(q.b, made["b"]), *motions, core_options(), BRUTE_FORCE, q.question != "overlap", False, 1
+            alone(q.a, made["a"]),
+            alone(q.b, made["b"]),
+            *motions,
+            core_options(),
+            BRUTE_FORCE,
+            q.question != "overlap",
+            False,
+            1,
         )[0][0]
         assert (bool(found) and not made["stopped"]) == made["hit"], case.id
         answers.add(made["hit"])
@@ -66,9 +78,13 @@ def test_faces_that_should_have_met_do_meet_and_a_face_among_the_k_nearest_was_t
         made, q = selection.trace(case.query, {"k": 4}, truth.t_hi), case.query
         should = made.get("should")
         if truth.label == "hit" and should:
-            at = ofg.Query("overlap", q.a, q.b, q.motion.pose_at(q.pose_a, should["time"]), q.pose_b)
+            at = ofg.Query(
+                "overlap", q.a, q.b, q.motion.pose_at(q.pose_a, should["time"]), q.pose_b
+            )
             assert ofg.brute_force(at).faces == tuple(should["faces"])
-            for place, face, taken in zip(should["places"], should["faces"], (made["a"], made["b"])):
+            for place, face, taken in zip(
+                should["places"], should["faces"], (made["a"], made["b"])
+            ):
                 assert place is None or (place <= 4) == (face in taken), case.id
             seen += 1
     assert seen
@@ -76,13 +92,18 @@ def test_faces_that_should_have_met_do_meet_and_a_face_among_the_k_nearest_was_t
 
 @pytest.mark.parametrize("repairs", ["arcs", "arcs+both-vertices"])
 def test_the_parts_of_the_step_are_those_that_the_core_halves_it_into(repairs):
-    """Halving makes 2 n - 1 windows of n parts; the core passes over those where spheres are apart."""
+    """Halving makes 2 n - 1 windows of n parts; the core passes over those where spheres are
+    apart.
+    """
     reached = 0
     for name in ("both_moving", "screw_wall", "rotational_contact"):
         family = families.get(name)
         for level in family.levels:
             query = family.case(3, level, 0).query
-            answer, shown = ofg.ask(query, repairs=repairs), selection.trace(query, {"k": 8, "repairs": repairs})
+            answer, shown = (
+                ofg.ask(query, repairs=repairs),
+                selection.trace(query, {"k": 8, "repairs": repairs}),
+            )
             parts = shown["parts"]
             assert parts & (parts - 1) == 0
             if not answer.hit:

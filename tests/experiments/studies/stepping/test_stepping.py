@@ -26,14 +26,27 @@ def test_no_run_starts_in_touch(scene):
     (method,) = registry.make("fcl-convex")
     for travel in TRAVELS:
         for phase in (0.0, rng.uniform(), 1.0):
-            position, turn, _, _ = _initial(scene, 1.0, scene.start(travel, phase), turned(rng, scene))
-            query = Query("overlap", _body("box", scene.half), _body("box", scene.obstacle), Pose(turn, position), Pose(position=(scene.reach, 0, 0)))
+            position, turn, _, _ = _initial(
+                scene, 1.0, scene.start(travel, phase), turned(rng, scene)
+            )
+            query = Query(
+                "overlap",
+                _body("box", scene.half),
+                _body("box", scene.obstacle),
+                Pose(turn, position),
+                Pose(position=(scene.reach, 0, 0)),
+            )
             assert not method.prepare(query)().hit
 
 
 class Blind(Method):
     name, engine, imports, configuration = "blind", "numpy", "numpy", "article"
-    questions, bodies, solid, guarantee = frozenset({"translation", "motion"}), frozenset({"convex"}), True, "none"
+    questions, bodies, solid, guarantee = (
+        frozenset({"translation", "motion"}),
+        frozenset({"convex"}),
+        True,
+        "none",
+    )
     answer = Verdict(False)
 
     def prepare(self, query):
@@ -61,8 +74,17 @@ def test_engines_without_remedy_hold_slow_bodies_and_lose_fast_ones(name, scene)
     assert tunnelled(name, scene, 100.0) > 0
 
 
-@pytest.mark.parametrize("name, scene", [("bullet maximal ccd", BALL), ("bullet maximal ccd", BOX), ("mujoco speculative", BALL),
-                                         ("ofg k=8 repairs=all", BALL), ("ofg k=8 repairs=all", BOX), ("ofg k=8 repairs=all", ROD)])
+@pytest.mark.parametrize(
+    "name, scene",
+    [
+        ("bullet maximal ccd", BALL),
+        ("bullet maximal ccd", BOX),
+        ("mujoco speculative", BALL),
+        ("ofg k=8 repairs=all", BALL),
+        ("ofg k=8 repairs=all", BOX),
+        ("ofg k=8 repairs=all", ROD),
+    ],
+)
 def test_remedies_hold_fast_bodies(name, scene):
     assert tunnelled(name, scene, 100.0) == 0
 
@@ -73,9 +95,13 @@ def test_a_swept_sphere_is_ignored_on_multibodies():
 
 
 def test_the_same_seed_gives_the_same_count_and_the_interval_holds_the_share():
-    rows = [next(track.measure([CONTESTANTS["bullet"]], [BOX], [20.0], 10, seed=3)) for _ in range(2)]
+    rows = [
+        next(track.measure([CONTESTANTS["bullet"]], [BOX], [20.0], 10, seed=3)) for _ in range(2)
+    ]
     assert rows[0]["tunnelled"] == rows[1]["tunnelled"]
-    assert all(0 <= r["low"] <= r["share"] <= r["high"] <= 1 and r["high"] - r["low"] > 0.2 for r in rows)
+    assert all(
+        0 <= r["low"] <= r["share"] <= r["high"] <= 1 and r["high"] - r["low"] > 0.2 for r in rows
+    )
 
 
 def test_the_command_writes_its_tables(tmp_path):
@@ -85,7 +111,9 @@ def test_the_command_writes_its_tables(tmp_path):
 
     app = typer.Typer()
     app.command()(main)
-    result = CliRunner().invoke(app, ["--runs", "1", "--only", "ofg k=8 repairs", "--scene", "ball", "--out", str(tmp_path)])
+    result = CliRunner().invoke(
+        app, ["--runs", "1", "--only", "ofg k=8 repairs", "--scene", "ball", "--out", str(tmp_path)]
+    )
     assert result.exit_code == 0, result.output
     assert (tmp_path / "stepping.csv").read_text().count("\n") == len(TRAVELS) + 1
     assert "ball at a wall" in (tmp_path / "stepping.md").read_text()
