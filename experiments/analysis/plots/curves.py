@@ -12,7 +12,8 @@ import numpy as np
 import pandas as pd
 
 from baselines import registry
-from experiments.analysis.tables.tables import COUNTS, Table
+from experiments.analysis.tables import Table
+from experiments.analysis.tables.chosen import COUNTS
 from experiments.cases import families
 from experiments.run import piece_truth
 from experiments.run.folder.store import Store

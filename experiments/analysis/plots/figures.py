@@ -15,7 +15,7 @@ import pandas as pd
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from baselines import registry
-from experiments.analysis import metrics, views
+from experiments.analysis import costs, metrics, outcome, views
 from experiments.run.folder.store import Store
 from experiments.run.timing import SITUATIONS, SIZES, size_of
 
@@ -73,7 +73,7 @@ def joined(store: Store) -> pd.DataFrame:
     at least half (shared); those of other methods are over what they answered, and they are on no
     front.
     """
-    found = metrics.outcomes(store)
+    found = outcome.outcomes(store)
     found = found.assign(faces=size_of(found.faces))
     rates = pd.concat(
         [
@@ -82,7 +82,7 @@ def joined(store: Store) -> pd.DataFrame:
         ],
         ignore_index=True,
     )
-    times = metrics.costs(store).drop(columns=["low", "high"])
+    times = costs.costs(store).drop(columns=["low", "high"])
     points = times.merge(rates[rates.judged > 0], on=["question", "faces", "method"])
     points = points.assign(
         rate=points.wrong_rate,

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import pandas as pd
 
 from baselines import registry
-from experiments.analysis import metrics
+from experiments.analysis import metrics, outcome
 
 from .runs import (
     Missing,
@@ -69,7 +69,7 @@ def board(found: pd.DataFrame, heading: str) -> list[dict]:
         metrics.rates(found, ["method", "question"]).set_index(["method", "question"]),
         [],
     )
-    judged = found[found.outcome.isin(metrics.JUDGED)]
+    judged = found[found.outcome.isin(outcome.JUDGED)]
     wrong = (
         judged.outcome.isin(["miss", "false alarm"])
         .groupby([judged.method, judged.scenario], sort=False)

@@ -24,7 +24,7 @@ import numpy as np
 import pandas as pd
 
 from baselines import registry
-from experiments.analysis import metrics
+from experiments.analysis import outcome
 from experiments.cases.case import Case
 from experiments.cases.label import Truth
 from experiments.run import answering, piece_truth
@@ -277,7 +277,7 @@ def verdicts(explained: Explained) -> pd.DataFrame:
     """method, outcome, time, error, detail of every method that answers the case's question, wrong
     answers first.
     """
-    found = metrics.judge(explained.said, pd.DataFrame([explained.row]), explained.pieces)
+    found = outcome.judge(explained.said, pd.DataFrame([explained.row]), explained.pieces)
     found = found[~found.detail.fillna("").str.startswith("does not answer")]
     own = (found.truth == piece_truth.PIECES) & (found.detail.fillna("") == "")
     found = found.assign(

@@ -18,8 +18,7 @@ import pandas as pd
 import ofg
 from baselines import registry
 from baselines.contract import Method
-from experiments.analysis import metrics, nesting, views
-from experiments.analysis.tables import tables
+from experiments.analysis import costs, nesting, outcome, tables, views
 from experiments.analysis.tables.methods import UNKNOWN
 from experiments.cases import families
 from experiments.run import piece_truth
@@ -55,7 +54,7 @@ OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
 def of_run(store: Store, made_tables=None) -> dict:
     """Everything the page of a run shows; see page/data.js for its reading."""
-    rows, found = filled(nesting.of(store, store.read("cases.parquet"))), metrics.outcomes(store)
+    rows, found = filled(nesting.of(store, store.read("cases.parquet"))), outcome.outcomes(store)
     made = {
         "mode": "run",
         "run": _run(store),
@@ -93,7 +92,7 @@ def of_case(
         filled(pd.DataFrame([row])),
         pd.DataFrame([body_row(b) for b in (case.query.a, case.query.b)]),
     )
-    found = metrics.judge(observations, rows, pieces)
+    found = outcome.judge(observations, rows, pieces)
     made = {
         "mode": "case",
         "run": {"versions": versions, **({"refused": refused} if refused else {})},
@@ -131,7 +130,7 @@ def pack(content: bytes) -> str:
 
 def _run(store: Store) -> dict:
     facts = store.facts
-    noise = metrics.noise(store) if store.has("timings.parquet") else math.nan
+    noise = costs.noise(store) if store.has("timings.parquet") else math.nan
     return {
         "name": store.folder.resolve().name,
         "title": store.config.title or store.folder.resolve().name,
@@ -251,8 +250,8 @@ def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
     for _, part in found.groupby(pd.Categorical(found.method, labels), observed=True):
         letters = ["."] * len(rows)
         at = part.case.map(place)
-        for i, outcome, within in zip(at, part.outcome, part.within):
-            letters[i] = CODES[outcome].upper() if within else CODES[outcome]
+        for i, what, within in zip(at, part.outcome, part.within):
+            letters[i] = CODES[what].upper() if within else CODES[what]
         made["outcome"].append("".join(letters))
         for name in ("time", "error"):
             there = part[name].notna()

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Callable
 
-from experiments.publish.findings.runs import Missing, Runs, UNMEASURED
+from experiments.publish.findings.runs import UNMEASURED, Missing, Runs
 
 BASIC = "The OFG algorithm"
 TIME = "Solving the discrete time problem"

@@ -9,9 +9,28 @@ import numpy as np
 import pandas as pd
 
 from baselines import registry
+from experiments.analysis import costs, metrics
+from experiments.publish.findings.runs import (
+    FAILS,
+    HOLDS,
+    LATE,
+    MISSES,
+    PART,
+    Missing,
+    Runs,
+    are_small,
+    by_family,
+    listed,
+    or_reason,
+    overall,
+    rate,
+    ratios_listed,
+    rows,
+    share_of,
+    spread,
+    worst_families,
+)
 
-from experiments.analysis import metrics
-from experiments.publish.findings.runs import FAILS, HOLDS, LATE, MISSES, Missing, PART, Runs, are_small, by_family, listed, or_reason, overall, rate, ratios_listed, rows, share_of, spread, worst_families
 from .claim import TIME, TURN, claim
 
 
@@ -140,7 +159,7 @@ def impact(runs: Runs, method: str) -> tuple[str, str]:
         return verdict, f"no time at all{lost}"
     e = error.iloc[0]
     timed = found.assign(off=off).dropna(subset=["off"])
-    middle = metrics.medians(timed, "off", ["method"]).iloc[0]
+    middle = costs.medians(timed, "off", ["method"]).iloc[0]
     return (
         verdict,
         (

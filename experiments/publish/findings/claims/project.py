@@ -5,6 +5,7 @@ from __future__ import annotations
 import pandas as pd
 
 from experiments import bench_ofg
+
 from ..runs import (
     FAILS,
     HOLDS,
