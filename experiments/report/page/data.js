@@ -17,11 +17,17 @@ async function readData() {
   for (const name of ["time", "error", "detail"])
     D[name] = D[name].map(([at, values]) => new Map(at.map((i, j) => [i, values[j]])));
   D.truth = D.truth.map(
-    ([at, labels, tunnels]) => new Map(at.map((i, j) => [i, { label: labels[j], canTunnel: tunnels[j] }])),
+    ([at, labels, tunnels]) =>
+      new Map(at.map((i, j) => [i, { label: labels[j], canTunnel: tunnels[j] }])),
   );
   D.canTunnel = Array.from({ length: D.n }, (_, i) => {
     const c = D.cases;
-    return c.question[i] !== "overlap" && c.label[i] === "hit" && c.start[i] === "clear" && c.end[i] === "clear";
+    return (
+      c.question[i] !== "overlap" &&
+      c.label[i] === "hit" &&
+      c.start[i] === "clear" &&
+      c.end[i] === "clear"
+    );
   });
 }
 
@@ -57,7 +63,9 @@ async function body(index) {
       b = D.bodies[index];
     const [v, kind, nv] = b.v,
       [f, wide, nf] = b.f;
-    const vertices = Float64Array.from(new (kind === "f4" ? Float32Array : Float64Array)(bytes, v, 3 * nv));
+    const vertices = Float64Array.from(
+      new (kind === "f4" ? Float32Array : Float64Array)(bytes, v, 3 * nv),
+    );
     const faces = new (wide === "u2" ? Uint16Array : Uint32Array)(bytes, f, 3 * nf);
     bodies.set(index, { ...b, vertices, faces });
   }
@@ -131,7 +139,8 @@ const clockedBy = new Map();
 function clocked(m) {
   if (!clockedBy.has(m)) {
     const all = new Set();
-    for (const lane of Object.values(D.lanes)) for (const i of lane[D.labels[m]]?.cases || []) all.add(i);
+    for (const lane of Object.values(D.lanes))
+      for (const i of lane[D.labels[m]]?.cases || []) all.add(i);
     clockedBy.set(m, all);
   }
   return clockedBy.get(m);
@@ -226,10 +235,14 @@ function rates(m, among) {
       r.timed++;
       list.push(Math.abs(e));
       if (e > 0) r.late++;
-      ((r.worstLate = Math.max(r.worstLate, e)), (r.worstEarly = Math.min(r.worstEarly, e)));
+      r.worstLate = Math.max(r.worstLate, e);
+      r.worstEarly = Math.min(r.worstEarly, e);
     }
   }
-  ((r.wrong = r.misses + r.alarms), (r.beyond = r.wrong - r.within), (r.judged = r.hits + r.clears), (r.medianError = median(list)));
+  r.wrong = r.misses + r.alarms;
+  r.beyond = r.wrong - r.within;
+  r.judged = r.hits + r.clears;
+  r.medianError = median(list);
   return r;
 }
 
@@ -247,7 +260,10 @@ function cost(m, lane, among) {
   if (timed.bins) {
     // the native lane: pairs of its own, already net
     const kept = timed.bins
-      .filter(([q, s, f]) => q === F.question && (!F.sizes || f === F.sizes) && (!F.situation || s === F.situation))
+      .filter(
+        ([q, s, f]) =>
+          q === F.question && (!F.sizes || f === F.sizes) && (!F.situation || s === F.situation),
+      )
       .map((b) => b[3]);
     return kept.length
       ? {

@@ -1,13 +1,35 @@
 // The cases behind a choice: the misses, false alarms and late times of one method, or those of any cell of the page.
 const PAGE = 24;
 const G = { method: "", kind: "", more: {}, shown: PAGE, list: [] };
-const GALLERY_KINDS = ["miss", "tunnelled", "false alarm", "late", "early", "beyond", "within", "contained", "touching", "failed", "wrong", "right", "all"];
+const GALLERY_KINDS = [
+  "miss",
+  "tunnelled",
+  "false alarm",
+  "late",
+  "early",
+  "beyond",
+  "within",
+  "contained",
+  "touching",
+  "failed",
+  "wrong",
+  "right",
+  "all",
+];
 
 function openCases(to) {
   const questions = new Set(casesOf(to).map((i) => D.cases.question[i]));
   if (!to.question && questions.size === 1) to = { ...to, question: [...questions][0] };
   if (to.question && to.question !== F.question)
-    refilter({ question: to.question, sizes: "", situation: "", bodies: "", shared: "", band: "", scenario: "" });
+    refilter({
+      question: to.question,
+      sizes: "",
+      situation: "",
+      bodies: "",
+      shared: "",
+      band: "",
+      scenario: "",
+    });
   const { method = "", kind = "all", ...more } = to;
   Object.assign(G, {
     method,
@@ -17,9 +39,9 @@ function openCases(to) {
     fixed: true,
   });
   drawGallery();
-  document
-    .getElementById("cases")
-    .scrollIntoView({ behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth" });
+  document.getElementById("cases").scrollIntoView({
+    behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth",
+  });
   document.querySelector("#gallery h3")?.focus({ preventScroll: true });
 }
 
@@ -27,9 +49,14 @@ function drawGallery() {
   if (!G.fixed) G.more = Object.fromEntries(Object.entries(here()).filter(([, v]) => v));
   const answering = D.labels.filter((l, m) => subset.some((i) => ANSWERED.has(D.outcome[m][i])));
   const counts = (label) =>
-    Object.fromEntries(GALLERY_KINDS.map((k) => [k, casesOf({ ...G.more, method: label, kind: k }).length]));
+    Object.fromEntries(
+      GALLERY_KINDS.map((k) => [k, casesOf({ ...G.more, method: label, kind: k }).length]),
+    );
   if (!G.fixed && (!G.method || !answering.includes(G.method)))
-    G.method = answering.find((l) => casesOf({ ...G.more, method: l, kind: "wrong" }).length) || answering[0] || "";
+    G.method =
+      answering.find((l) => casesOf({ ...G.more, method: l, kind: "wrong" }).length) ||
+      answering[0] ||
+      "";
   const found = G.method ? counts(G.method) : {};
   if (!G.fixed && !(found[G.kind] > 0)) G.kind = GALLERY_KINDS.find((k) => found[k]) || "all";
   const link = { ...G.more, kind: G.kind };
@@ -93,7 +120,13 @@ function drawGallery() {
             )
           : null,
         chips,
-        G.fixed ? el("button", { type: "button", onclick: () => change({ fixed: false }) }, "Back to the filter above") : null,
+        G.fixed
+          ? el(
+              "button",
+              { type: "button", onclick: () => change({ fixed: false }) },
+              "Back to the filter above",
+            )
+          : null,
       ),
       el(
         "h3",
@@ -205,7 +238,7 @@ function thumbnails(box) {
     { rootMargin: "300px" },
   );
   queue = [];
-  box.querySelectorAll("canvas").forEach((c) => watch.observe(c));
+  for (const canvas of box.querySelectorAll("canvas")) watch.observe(canvas);
 }
 
 async function paint() {
@@ -230,7 +263,8 @@ async function paint() {
       await new Promise((next) => setTimeout(next));
     }
   } catch (error) {
-    for (const canvas of queue) canvas.replaceWith(el("span", { class: "no-picture" }, "no 3D here"));
+    for (const canvas of queue)
+      canvas.replaceWith(el("span", { class: "no-picture" }, "no 3D here"));
     queue = [];
   } finally {
     painting = false;
@@ -286,7 +320,8 @@ async function showCase(i, method) {
     at = G.list.indexOf(i);
   box.dataset.case = i;
   delete box.dataset.ready;
-  document.getElementById("case-place").textContent = at >= 0 ? `${at + 1} of ${G.list.length}` : "";
+  document.getElementById("case-place").textContent =
+    at >= 0 ? `${at + 1} of ${G.list.length}` : "";
   if (!box.open) box.showModal();
   openView?.close();
   openView = await caseView(document.getElementById("case-content"), i, method);

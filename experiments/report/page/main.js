@@ -13,11 +13,17 @@ function head() {
     uncertain = c.label.filter((l) => l === "uncertain").length,
     r = D.run;
   const tiles = [
-    [(D.n - uncertain).toLocaleString("en"), "certified cases" + (uncertain ? `, ${uncertain} uncertain` : "")],
+    [
+      (D.n - uncertain).toLocaleString("en"),
+      "certified cases" + (uncertain ? `, ${uncertain} uncertain` : ""),
+    ],
     [D.labels.length, "methods and configurations"],
     [new Set(c.scenario).size, "scenarios"],
     [(D.n * D.labels.length).toLocaleString("en"), "questions asked"],
-    [r.noise === null ? "–" : percent(r.noise), r.noise > 0.25 ? "timing noise: disturbed" : "timing noise"],
+    [
+      r.noise === null ? "–" : percent(r.noise),
+      r.noise > 0.25 ? "timing noise: disturbed" : "timing noise",
+    ],
   ];
   return el(
     "header",
@@ -69,8 +75,8 @@ function themeButton() {
       "aria-label": "switch between light and dark",
       onclick: () => {
         const dark =
-          (document.documentElement.dataset.theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) ===
-          "dark";
+          (document.documentElement.dataset.theme ||
+            (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
         document.documentElement.dataset.theme = dark ? "light" : "dark";
         recolour();
       },
@@ -91,7 +97,12 @@ function runPage() {
   const app = document.getElementById("app");
   app.replaceChildren(
     head(),
-    el("div", { id: "filters", class: "filters", role: "group", "aria-label": "Which cases the figures are of" }),
+    el("div", {
+      id: "filters",
+      class: "filters",
+      role: "group",
+      "aria-label": "Which cases the figures are of",
+    }),
     el(
       "main",
       { id: "main" },
@@ -139,14 +150,22 @@ function runPage() {
 
 function follow() {
   const match = location.hash.match(/^#case=([^&]+)(?:&method=(.*))?$/);
-  if (match) showCase(D.place.get(decodeURIComponent(match[1])), match[2] ? decodeURIComponent(match[2]) : undefined);
+  if (match)
+    showCase(
+      D.place.get(decodeURIComponent(match[1])),
+      match[2] ? decodeURIComponent(match[2]) : undefined,
+    );
 }
 
 async function casePage() {
   const app = document.getElementById("app"),
     main = el("main", { id: "main", class: "single" });
   app.replaceChildren(
-    el("header", { class: "top" }, el("div", { class: "bar-top" }, el("strong", {}, "ofg-bench explain"), themeButton())),
+    el(
+      "header",
+      { class: "top" },
+      el("div", { class: "bar-top" }, el("strong", {}, "ofg-bench explain"), themeButton()),
+    ),
     main,
   );
   openView = await caseView(main, 0);

@@ -5,13 +5,25 @@ const MEASURES = {
   "false alarms": { of: (r) => [r.alarms, r.clears], kind: "false alarm" },
   tunnelled: { of: (r) => [r.tunnelled, r.canTunnel], kind: "tunnelled" },
 };
-const SYMBOLS = ["circle", "square", "diamond", "triangle-up", "triangle-down", "pentagon", "x", "star", "hexagon", "cross"];
+const SYMBOLS = [
+  "circle",
+  "square",
+  "diamond",
+  "triangle-up",
+  "triangle-down",
+  "pentagon",
+  "x",
+  "star",
+  "hexagon",
+  "cross",
+];
 const GRAIN = 50; // ns: what the clock cannot tell from nothing is drawn there
 let measure = "wrong answers",
   clockSide = "net";
 
 const squash = (rate) => Math.asinh(100 * rate); // linear up to 1 %, then logarithmic: 0 can be drawn
-const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name.slice(4, -1)).trim();
+const colour = (name) =>
+  getComputedStyle(document.documentElement).getPropertyValue(name.slice(4, -1)).trim();
 
 function drawPlotControls() {
   document.getElementById("plot-controls").replaceChildren(
@@ -52,22 +64,20 @@ async function drawPlot() {
     const name = D.methods[m].name,
       curve = D.methods[m].curve;
     if (!families.has(curve)) families.set(curve, []);
-    families
-      .get(curve)
-      .push({
-        name,
-        m,
-        label,
-        short: label.split(" ").slice(1).join(" "),
-        count,
-        total,
-        rate: count / total,
-        ci: wilson(count, total),
-        us: Math.max(c[clockSide], GRAIN) / 1e3,
-        cost: c,
-        whole: r.answered === r.asked,
-        r,
-      });
+    families.get(curve).push({
+      name,
+      m,
+      label,
+      short: label.split(" ").slice(1).join(" "),
+      count,
+      total,
+      rate: count / total,
+      ci: wilson(count, total),
+      us: Math.max(c[clockSide], GRAIN) / 1e3,
+      cost: c,
+      whole: r.answered === r.asked,
+      r,
+    });
   });
   const words = document.getElementById("plot-words");
   if (!families.size) {
@@ -180,7 +190,8 @@ async function drawPlot() {
   if (!box.dataset.listens) {
     box.dataset.listens = "yes";
     box.on("plotly_click", ({ points: [p] }) => {
-      if (p?.customdata) openCases({ ...here(), method: p.customdata, kind: MEASURES[measure].kind });
+      if (p?.customdata)
+        openCases({ ...here(), method: p.customdata, kind: MEASURES[measure].kind });
     });
   }
   words.textContent =
@@ -203,9 +214,15 @@ function placeLabels(points, width) {
     const [x, y] = spot(p),
       long = 6 * p.short.length;
     for (const corner of ["top right", "top left", "bottom right", "bottom left"]) {
-      const [x0, y0] = [corner.endsWith("right") ? x + 5 : x - 5 - long, corner.startsWith("top") ? y - 15 : y + 4];
+      const [x0, y0] = [
+        corner.endsWith("right") ? x + 5 : x - 5 - long,
+        corner.startsWith("top") ? y - 15 : y + 4,
+      ];
       const [x1, y1] = [x0 + long, y0 + 11];
-      if (taken.some(([q, [a0, a1, b0, b1]]) => q !== p && x0 < a1 && a0 < x1 && y0 < b1 && b0 < y1)) continue;
+      if (
+        taken.some(([q, [a0, a1, b0, b1]]) => q !== p && x0 < a1 && a0 < x1 && y0 < b1 && b0 < y1)
+      )
+        continue;
       placed.set(p, corner);
       taken.push([null, [x0, x1, y0, y1]]);
       break;
@@ -214,7 +231,14 @@ function placeLabels(points, width) {
   return placed;
 }
 
-const here = () => ({ question: F.question, sizes: F.sizes, situation: F.situation, bodies: F.bodies, band: F.band, scenario: F.scenario });
+const here = () => ({
+  question: F.question,
+  sizes: F.sizes,
+  situation: F.situation,
+  bodies: F.bodies,
+  band: F.band,
+  scenario: F.scenario,
+});
 
 function pareto(points) {
   const front = [];

@@ -1,5 +1,6 @@
 // What is said of one case in words: its facts, its certificate, what OFG looked at, every method's verdict.
-const moves = (i, side) => Boolean(norm(D.cases[`displacement${side}`][i]) || D.cases[`angle${side}`][i]);
+const moves = (i, side) =>
+  Boolean(norm(D.cases[`displacement${side}`][i]) || D.cases[`angle${side}`][i]);
 
 // What one body does in the step; side: "" for A, "_b" for B.
 function motionWords(i, side) {
@@ -7,7 +8,9 @@ function motionWords(i, side) {
     d = norm(of("displacement")),
     about = of("about");
   if (!moves(i, side)) return "rests";
-  const turn = of("angle") ? `turns ${number(of("angle"))} rad${norm(about) ? ` about its point (${about.map((x) => number(x)).join(", ")})` : ""}` : "";
+  const turn = of("angle")
+    ? `turns ${number(of("angle"))} rad${norm(about) ? ` about its point (${about.map((x) => number(x)).join(", ")})` : ""}`
+    : "";
   return [d ? `moves ${number(d)}` : "", turn].filter(Boolean).join(", ");
 }
 
@@ -29,7 +32,12 @@ function facts(i) {
       sweep && hit ? ` · start ${c.start[i]}, end ${c.end[i]}` : "",
     ],
     sweep && hit && c.t_lo[i] !== null
-      ? ["Time of impact", c.t_lo[i] === c.t_hi[i] ? `${c.t_hi[i]} (exact to double)` : `[${c.t_lo[i]}, ${c.t_hi[i]}]`]
+      ? [
+          "Time of impact",
+          c.t_lo[i] === c.t_hi[i]
+            ? `${c.t_hi[i]} (exact to double)`
+            : `[${c.t_lo[i]}, ${c.t_hi[i]}]`,
+        ]
       : null,
     c.gap[i] === null
       ? null
@@ -53,7 +61,11 @@ function facts(i) {
     "div",
     {},
     el("h2", { class: "case-name" }, c.case[i]),
-    el("p", { class: "note" }, `${c.question[i]}${D.scenarios[c.scenario[i]] ? " · " + D.scenarios[c.scenario[i]].exposes : ""}`),
+    el(
+      "p",
+      { class: "note" },
+      `${c.question[i]}${D.scenarios[c.scenario[i]] ? " · " + D.scenarios[c.scenario[i]].exposes : ""}`,
+    ),
     el(
       "dl",
       { class: "facts" },
@@ -83,7 +95,8 @@ function proofWords(i, g, { plane, point }, t) {
 function timeMarks(i, label, method) {
   const c = D.cases,
     marks = [];
-  if (c.label[i] === "hit" && c.t_hi[i] !== null) marks.push([c.t_hi[i], "truth", "certified impact"]);
+  if (c.label[i] === "hit" && c.t_hi[i] !== null)
+    marks.push([c.t_hi[i], "truth", "certified impact"]);
   for (const [l, kind] of [
     [method, "told"],
     [label, "told"],
@@ -92,7 +105,9 @@ function timeMarks(i, label, method) {
       t = m === undefined ? undefined : D.time[m].get(i);
     if (t !== undefined && !marks.some(([x, , w]) => w === l)) marks.push([t, kind, l]);
   }
-  return marks.map(([t, kind, words]) => el("i", { class: kind, style: `left:${100 * t}%`, title: `${words}: ${t}` }));
+  return marks.map(([t, kind, words]) =>
+    el("i", { class: kind, style: `left:${100 * t}%`, title: `${words}: ${t}` }),
+  );
 }
 
 function ofgWords(i, label, x) {
@@ -102,10 +117,13 @@ function ofgWords(i, label, x) {
     sa = D.bodies[x.bodies[0]],
     sb = D.bodies[x.bodies[1]],
     lines = [];
-  const of = (n, b, piece) => `${n} of the ${b.pieces && piece >= 0 ? b.pieces[piece][1] : b.f[2]} faces`;
+  const of = (n, b, piece) =>
+    `${n} of the ${b.pieces && piece >= 0 ? b.pieces[piece][1] : b.f[2]} faces`;
   lines.push(
     `It took ${of(x.na, sa, x.pieces[0])} of A${sa.pieces ? ` (piece ${x.pieces[0] + 1} of ${sa.pieces.length})` : ""} and ${of(x.nb, sb, x.pieces[1])} of B${sb.pieces ? ` (piece ${x.pieces[1] + 1} of ${sb.pieces.length})` : ""}` +
-      (x.parts > 1 ? `, in the part of the step from ${number(x.window[0])} to ${number(x.window[1])} (one of ${x.parts})` : "") +
+      (x.parts > 1
+        ? `, in the part of the step from ${number(x.window[0])} to ${number(x.window[1])} (one of ${x.parts})`
+        : "") +
       (moving
         ? {
             1: ", chosen at the start",
@@ -116,22 +134,40 @@ function ofgWords(i, label, x) {
       ".",
   );
   if (x.bodies.some((b, k) => b !== D.drawn[i][k]))
-    lines.push("It was asked about CoACD's pieces of the mesh, which are another body than the mesh near its surface.");
-  const m = D.method.get(label), letter = D.outcome[m]?.[i], truth = truthOf(i, m).label, hit = truth === "hit";
-  if ((letter === "r" || MISS.has(letter) || ALARM.has(letter)) && x.hit !== (letter === "r" ? hit : ALARM.has(letter)))
+    lines.push(
+      "It was asked about CoACD's pieces of the mesh, which are another body than the mesh near its surface.",
+    );
+  const m = D.method.get(label),
+    letter = D.outcome[m]?.[i],
+    truth = truthOf(i, m).label,
+    hit = truth === "hit";
+  if (
+    (letter === "r" || MISS.has(letter) || ALARM.has(letter)) &&
+    x.hit !== (letter === "r" ? hit : ALARM.has(letter))
+  )
     lines.push("The OFG that made this page answers otherwise than the one of the run.");
   if (x.hit) {
     lines.push(
       `It answered hit${x.time !== null ? ` at t = ${number(x.time, 8)}` : ""}: ${{ start: "faces that meet at the start", end: "faces that meet at the end", "edge-face": "a virtual edge of A meets a face of B", "face-edge": "a virtual edge of B meets a face of A", "edge-edge": "a moving edge meets an edge", inside: "one body lies inside the other" }[x.found] || x.found}${x.met ? ` (face ${x.met[0]} of A, face ${x.met[1]} of B)` : ""}.`,
     );
     if (truth === "clear")
-      lines.push(c.touching[i] ? "The certificate says that the surfaces share a point and no more." : "The certificate says that nothing meets.");
+      lines.push(
+        c.touching[i]
+          ? "The certificate says that the surfaces share a point and no more."
+          : "The certificate says that nothing meets.",
+      );
   } else if (truth === "hit") {
-    lines.push(x.stopped ? `It answered clear before it looked at a face: ${x.stopped}.` : "It answered clear.");
+    lines.push(
+      x.stopped
+        ? `It answered clear before it looked at a face: ${x.stopped}.`
+        : "It answered clear.",
+    );
     if (x.should) {
       const [pa, pb] = x.should.places,
         taken = ["a", "b"].map((s, k) =>
-          x[s].length ? x[s].includes(x.should.faces[k]) : x.should.places[k] !== null && x.should.places[k] <= x[`n${s}`],
+          x[s].length
+            ? x[s].includes(x.should.faces[k])
+            : x.should.places[k] !== null && x.should.places[k] <= x[`n${s}`],
         );
       const place = (p, is, side) =>
         p === null
@@ -186,24 +222,44 @@ function verdicts(i, method) {
     el("h3", {}, "What every method said"),
     sortable(
       [
-        { title: "Method", left: true, key: (r) => r.label, cell: (r) => (r.label === method ? el("b", {}, r.label) : r.label) },
+        {
+          title: "Method",
+          left: true,
+          key: (r) => r.label,
+          cell: (r) => (r.label === method ? el("b", {}, r.label) : r.label),
+        },
         {
           title: "Verdict",
           left: true,
           key: (r) => rank[r.letter],
-          cell: (r) => [badge(r.letter), r.detail ? el("small", {}, r.detail) : "", ofPieces(i, r.m)],
+          cell: (r) => [
+            badge(r.letter),
+            r.detail ? el("small", {}, r.detail) : "",
+            ofPieces(i, r.m),
+          ],
         },
-        sweep && { title: "Time", key: (r) => r.time, cell: (r) => (r.time === undefined ? "–" : number(r.time, 6)) },
+        sweep && {
+          title: "Time",
+          key: (r) => r.time,
+          cell: (r) => (r.time === undefined ? "–" : number(r.time, 6)),
+        },
         sweep && {
           title: "Error",
           note: "beyond the certified bracket, as a share of the step: late is positive",
           key: (r) => r.error,
-          cell: (r) => (r.error === undefined ? "–" : r.error === 0 ? "0" : (r.error > 0 ? "+" : "") + number(r.error, 2)),
+          cell: (r) =>
+            r.error === undefined
+              ? "–"
+              : r.error === 0
+                ? "0"
+                : (r.error > 0 ? "+" : "") + number(r.error, 2),
         },
       ].filter(Boolean),
       rows,
       { start: 1, id: "verdicts", caption: "" },
     ),
-    silent ? el("p", { class: "note" }, `${silent} more do not answer ${D.cases.question[i]}.`) : "",
+    silent
+      ? el("p", { class: "note" }, `${silent} more do not answer ${D.cases.question[i]}.`)
+      : "",
   );
 }
