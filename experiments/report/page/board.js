@@ -83,7 +83,9 @@ function drawBoard() {
     },
     {
       title: "Contained",
-      note: "hits of a body inside another whose surfaces do not meet: no test of surfaces can see them, and they are in no rate",
+      note:
+        "hits of a body inside another whose surfaces do not meet: no test of surfaces can see " +
+        "them, and they are in no rate",
       key: (x) => x.r.contained,
       cell: (x) =>
         x.r.contained
@@ -98,7 +100,9 @@ function drawBoard() {
     },
     sweep && {
       title: "Time error",
-      note: "median and latest error of the time of impact beyond its certified bracket, as a share of the step",
+      note:
+        "median and latest error of the time of impact beyond its certified bracket, as a " +
+        "share of the step",
       key: (x) => x.r.medianError,
       cell: (x) =>
         x.r.timed
@@ -136,7 +140,9 @@ function drawBoard() {
     },
     timing && {
       title: "Time, µs",
-      note: "net (gross): median over the timed cases, with a distribution-free 95 % interval of the gross; net is without the method's floor",
+      note:
+        "net (gross): median over the timed cases, with a distribution-free 95 % interval of " +
+        "the gross; net is without the method's floor",
       key: (x) => x.cost?.net,
       cell: (x) =>
         x.cost?.bins
@@ -150,7 +156,8 @@ function drawBoard() {
                 el(
                   "small",
                   {},
-                  `${microseconds(x.cost.low)}–${microseconds(x.cost.high)} · ${plural(x.cost.n, "case")}`,
+                  `${microseconds(x.cost.low)}–${microseconds(x.cost.high)} · ` +
+                    `${plural(x.cost.n, "case")}`,
                 ),
               ]
             : "–",
@@ -166,7 +173,8 @@ function drawBoard() {
       ? el(
           "p",
           { class: "note" },
-          `${plural(silent.length, "method")} of the run answer none of these cases and are not listed: ${silent.join(", ")}.`,
+          `${plural(silent.length, "method")} of the run answer none of these cases and are ` +
+            `not listed: ${silent.join(", ")}.`,
         )
       : "",
   );
@@ -198,7 +206,8 @@ const link = (to, text, title) =>
     text,
   );
 
-const PALETTE = Array.from({ length: 10 }, (_, i) => `var(--c${i})`); // an engine each; there are nine
+// A colour for each engine; there are nine.
+const PALETTE = Array.from({ length: 10 }, (_, i) => `var(--c${i})`);
 function engineColour(engine) {
   const engines = [...new Set(D.methods.map((m) => m.engine))];
   return PALETTE[engines.indexOf(engine) % PALETTE.length];

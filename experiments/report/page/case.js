@@ -74,7 +74,8 @@ async function caseView(root, i, method) {
         el(
           "p",
           {},
-          "The bodies of this case are not in this page, to keep it small. Its own page, with everything:",
+          "The bodies of this case are not in this page, to keep it small. Its own page, " +
+            "with everything:",
         ),
         el("code", {}, `ofg-bench explain ${c.case[i]} --run ${D.run.name || "RUN"}`),
       );

@@ -1,5 +1,6 @@
 "use strict";
-// The run, decoded: D.cases holds columns, D.outcome one letter for each method and case. Every count on the page is a count of letters.
+// The run, decoded: D.cases holds columns, D.outcome one letter for each method and case. Every
+// count on the page is a count of letters.
 let D, BYTES;
 
 async function inflate(id) {
@@ -31,7 +32,8 @@ async function readData() {
   });
 }
 
-// What the answer of method m is judged by: the case's truth, or that of the pieces that the method put in place of a mesh.
+// What the answer of method m is judged by: the case's truth, or that of the pieces that the method
+// put in place of a mesh.
 function truthOf(i, m) {
   return D.truth[m]?.get(i) || { label: D.cases.label[i], canTunnel: D.canTunnel[i] };
 }
@@ -246,6 +248,12 @@ function rates(m, among) {
   return r;
 }
 
+// What a scenario exposes, behind a mark; nothing of one that the run does not describe.
+function exposed(mark, scenario) {
+  const known = D.scenarios[scenario];
+  return known ? mark + known.exposes : "";
+}
+
 function median(values) {
   if (!values.length) return NaN;
   const s = Float64Array.from(values).sort(),
@@ -253,7 +261,8 @@ function median(values) {
   return s.length % 2 ? s[h] : (s[h - 1] + s[h]) / 2;
 }
 
-// Nanoseconds of one method over the timed cases among these: gross median, its distribution-free 95 % interval, floor, net.
+// Nanoseconds of one method over the timed cases among these: gross median, its distribution-free
+// 95 % interval, floor, net.
 function cost(m, lane, among) {
   const timed = D.lanes[lane]?.[D.labels[m]];
   if (!timed) return null;

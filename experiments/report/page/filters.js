@@ -9,7 +9,8 @@ const F = {
   shared: "",
   lane: "",
 };
-const LEAST = 0.5; // share of the cases that a method answers, or it does not decide which are common: views.LEAST
+// Share of the cases that a method answers, or it does not decide which are common: views.LEAST.
+const LEAST = 0.5;
 const listeners = [];
 let subset = [];
 

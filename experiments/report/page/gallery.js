@@ -1,4 +1,5 @@
-// The cases behind a choice: the misses, false alarms and late times of one method, or those of any cell of the page.
+// The cases behind a choice: the misses, false alarms and late times of one method, or those of any
+// cell of the page.
 const PAGE = 24;
 const G = { method: "", kind: "", more: {}, shown: PAGE, list: [] };
 const GALLERY_KINDS = [
@@ -86,7 +87,9 @@ function drawGallery() {
             change({ more, fixed: true });
           },
         },
-        `${{ sizes: "faces", band: "gap / size", tag: "" }[k] ?? k} ${k === "tag" ? `${v[0]}: ${v[1].join(", ")}` : Array.isArray(v) ? v.join(", ") : v} ×`,
+        `${{ sizes: "faces", band: "gap / size", tag: "" }[k] ?? k} ` +
+          `${k === "tag" ? `${v[0]}: ${v[1].join(", ")}` : Array.isArray(v) ? v.join(", ") : v} ` +
+          "×",
       ),
     );
   const box = document.getElementById("gallery"),
@@ -131,7 +134,8 @@ function drawGallery() {
       el(
         "h3",
         { tabindex: "-1" },
-        `${plural(G.list.length, "case")}: ${[G.method, KIND_WORDS[G.kind], G.more.question].filter(Boolean).join(" · ")}`,
+        `${plural(G.list.length, "case")}: ` +
+          `${[G.method, KIND_WORDS[G.kind], G.more.question].filter(Boolean).join(" · ")}`,
       ),
       el("ol", { class: "cards" }, G.list.slice(0, G.shown).map(card)),
       G.list.length > G.shown
@@ -150,7 +154,8 @@ function drawGallery() {
                   box.querySelectorAll(".card")[at]?.focus();
                 },
               },
-              `Show ${Math.min(PAGE, G.list.length - G.shown)} more of ${(G.list.length - G.shown).toLocaleString("en")}`,
+              `Show ${Math.min(PAGE, G.list.length - G.shown)} more of ` +
+                `${(G.list.length - G.shown).toLocaleString("en")}`,
             ),
           )
         : null,
@@ -158,7 +163,9 @@ function drawGallery() {
         ? el(
             "p",
             { class: "note" },
-            `${plural(undrawn(), "case")} of these without bodies in this page (it holds those of up to 24 cases of each kind for each method, and more while there is room); ofg-bench explain shows any of them.`,
+            `${plural(undrawn(), "case")} of these without bodies in this page (it holds ` +
+              "those of up to 24 cases of each kind for each method, and more while there is " +
+              "room); ofg-bench explain shows any of them.",
           )
         : null,
     ].filter(Boolean),
@@ -197,7 +204,7 @@ function card(i) {
         class: "card",
         "data-case": i,
         onclick: () => {
-          location.hash = `case=${encodeURIComponent(c.case[i])}${G.method ? `&method=${encodeURIComponent(G.method)}` : ""}`;
+          location.hash = caseLink(c.case[i]);
         },
       },
       D.drawn[i]
@@ -219,6 +226,12 @@ function card(i) {
       ),
     ),
   );
+}
+
+// What the address says of a case that is open.
+function caseLink(name) {
+  const method = G.method ? `&method=${encodeURIComponent(G.method)}` : "";
+  return `case=${encodeURIComponent(name)}${method}`;
 }
 
 // Pictures are drawn one after another by one hidden scene, those in sight first.
@@ -305,11 +318,7 @@ function step(by) {
   const at = G.list.indexOf(Number(document.getElementById("case").dataset.case)),
     next = G.list[at + by];
   if (at >= 0 && next !== undefined) {
-    history.replaceState(
-      null,
-      "",
-      `#case=${encodeURIComponent(D.cases.case[next])}${G.method ? `&method=${encodeURIComponent(G.method)}` : ""}`,
-    );
+    history.replaceState(null, "", `#${caseLink(D.cases.case[next])}`);
     showCase(next, G.method || undefined);
   }
 }

@@ -1,4 +1,5 @@
-// Rotations and places in doubles: where a body is at a time, and the plane of a certificate. Nothing is drawn here.
+// Rotations and places in doubles: where a body is at a time, and the plane of a certificate.
+// Nothing is drawn here.
 const rotation = ([w, x, y, z]) => {
   const s = w * w + x * x + y * y + z * z;
   return [
@@ -48,7 +49,8 @@ const unit = (a) => {
   return [a[0] / l, a[1] / l, a[2] / l];
 };
 
-// One body's pose at each t of the step, relative to `origin`: it turns by k, theta about its point `about`.
+// One body's pose at each t of the step, relative to `origin`: it turns by k, theta about its point
+// `about`.
 function pathOf(side, i, origin, moving) {
   const c = D.cases,
     of = (name) => c[`${name}${side}`][i],
@@ -67,7 +69,8 @@ function pathOf(side, i, origin, moving) {
   return { turn, pose, theta, moves: moving && Boolean(theta || norm(d)) };
 }
 
-// A case's geometry without any drawing: poses relative to A's at the start, the plane of its certificate at a time.
+// A case's geometry without any drawing: poses relative to A's at the start, the plane of its
+// certificate at a time.
 async function geometryOf(i) {
   const c = D.cases,
     [ia, ib] = D.drawn[i],
@@ -109,14 +112,16 @@ function elementVertices(bodyOf, order, from, to) {
   return found;
 }
 
-// The tightest plane of the proof at time t: normal, middle, clearance, which elements; relative to p_A. null where none is for t.
+// The tightest plane of the proof at time t: normal, middle, clearance, which elements; relative to
+// p_A. null where none is for t.
 function planeAt(g, proof, t) {
   if (!proof?.leaves) return null;
   let best = null,
     count = 0;
   const A = g.poseA(t),
     B = g.poseB(t),
-    turn = { A: g.A.turn(t), B: g.B.turn(t) }; // what a normal that is fixed in a body has turned by
+    // what a normal that is fixed in a body has turned by
+    turn = { A: g.A.turn(t), B: g.B.turn(t) };
   for (const leaf of proof.leaves) {
     const [s, e, frame, nx, ny, nz, a0, a1, b0, b1] = leaf;
     if (t < s || t > e) continue;

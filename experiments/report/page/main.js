@@ -51,7 +51,8 @@ function head() {
     el(
       "p",
       { class: "intro" },
-      "Every label is certified: a proof of each answer is stored with its case and was checked by a program that knows no engine. A ",
+      "Every label is certified: a proof of each answer is stored with its case and was " +
+        "checked by a program that knows no engine. A ",
       el("b", {}, "miss"),
       " is a certified hit answered clear, a ",
       el("b", {}, "false alarm"),
@@ -109,7 +110,8 @@ function runPage() {
       section(
         "board",
         "Leaderboard",
-        "Over the certified cases that a method answered. Sort by any column; methods that answer different cases are not strictly comparable: see “Answered”.",
+        "Over the certified cases that a method answered. Sort by any column; methods that " +
+          "answer different cases are not strictly comparable: see “Answered”.",
         el("div", { id: "board-table" }),
       ),
       section(
@@ -131,7 +133,8 @@ function runPage() {
       section(
         "tables",
         "Tables of the run",
-        "As saved in its folder tables/ (CSV, Markdown, LaTeX), over all cases whatever the filter above; rates with 95 % Wilson intervals.",
+        "As saved in its folder tables/ (CSV, Markdown, LaTeX), over all cases whatever the " +
+          "filter above; rates with 95 % Wilson intervals.",
         el("div", { id: "saved" }),
       ),
       section("run", "What was run", "", el("div", { id: "run-facts" })),
@@ -184,7 +187,8 @@ readData()
         el(
           "p",
           { class: "notice" },
-          `This page could not be drawn: ${error.message}. It needs a browser of 2023 or later (DecompressionStream, WebGL).`,
+          `This page could not be drawn: ${error.message}. It needs a browser of 2023 or ` +
+            "later (DecompressionStream, WebGL).",
         ),
       );
     throw error;

@@ -73,7 +73,7 @@ function drawPivot() {
   ].concat(
     groups.map((g, k) => ({
       title: across === "level" ? number(g.name, 4) : String(g.name),
-      note: `${plural(g.cases.length, "case")}${D.scenarios[g.name] ? ": " + D.scenarios[g.name].exposes : ""}`,
+      note: `${plural(g.cases.length, "case")}${exposed(": ", g.name)}`,
       key: (x) => {
         const [n, total] = WHAT[what].of(x.cells[k]);
         return total ? n / total : NaN;
@@ -100,7 +100,8 @@ function drawPivot() {
     el(
       "p",
       { class: "note" },
-      "Each cell: how many of how many, with the 95 % Wilson interval below. Shading follows the rate.",
+      "Each cell: how many of how many, with the 95 % Wilson interval below. Shading follows " +
+        "the rate.",
     ),
   );
 }

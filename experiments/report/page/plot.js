@@ -1,4 +1,5 @@
-// Accuracy against speed: one curve per method over its parameter, colour by engine, symbol by method; below it the same points as the leaderboard.
+// Accuracy against speed: one curve per method over its parameter, colour by engine, symbol by
+// method; below it the same points as the leaderboard.
 const MEASURES = {
   "wrong answers": { of: (r) => [r.wrong, r.judged], kind: "wrong" },
   misses: { of: (r) => [r.misses, r.hits], kind: "miss" },
@@ -21,7 +22,8 @@ const GRAIN = 50; // ns: what the clock cannot tell from nothing is drawn there
 let measure = "wrong answers",
   clockSide = "net";
 
-const squash = (rate) => Math.asinh(100 * rate); // linear up to 1 %, then logarithmic: 0 can be drawn
+// Linear up to 1 %, then logarithmic: 0 can be drawn.
+const squash = (rate) => Math.asinh(100 * rate);
 const colour = (name) =>
   getComputedStyle(document.documentElement).getPropertyValue(name.slice(4, -1)).trim();
 
@@ -83,7 +85,8 @@ async function drawPlot() {
   if (!families.size) {
     box.hidden = true;
     words.textContent = Object.keys(D.lanes).length
-      ? "No method has both a rate and a time for these cases: fewer are timed than asked. Widen the filter."
+      ? "No method has both a rate and a time for these cases: fewer are timed than asked. " +
+        "Widen the filter."
       : "This run took no times.";
     return;
   }
@@ -134,7 +137,11 @@ async function drawPlot() {
       },
       hovertext: points.map(
         (p) =>
-          `<b>${p.label}</b><br>${measure} ${p.count}/${p.total} (${interval(p.ci)})<br>net ${microseconds(p.cost.net)} µs, gross ${microseconds(p.cost.gross)} µs over ${p.cost.n} ${p.cost.bins ? "bins of pairs of the native lane" : "cases"}<br>${p.whole ? "answers all of these cases" : `answers ${p.r.answered} of ${p.r.asked}`}`,
+          `<b>${p.label}</b><br>${measure} ${p.count}/${p.total} (${interval(p.ci)})<br>net ` +
+          `${microseconds(p.cost.net)} µs, gross ${microseconds(p.cost.gross)} µs over ` +
+          `${p.cost.n} ` +
+          `${p.cost.bins ? "bins of pairs of the native lane" : "cases"}<br>` +
+          (p.whole ? "answers all of these cases" : `answers ${p.r.answered} of ${p.r.asked}`),
       ),
       hoverinfo: "text",
     });
@@ -196,13 +203,19 @@ async function drawPlot() {
   }
   words.textContent =
     (F.lane === "native"
-      ? "Native times are of the libraries in one C++ loop, on pairs of their own of these sizes (experiments/native.py); rates are of this run's cases. "
+      ? "Native times are of the libraries in one C++ loop, on pairs of their own of these " +
+        "sizes (experiments/native.py); rates are of this run's cases. "
       : "") +
-    `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: answers only part of them, and is not on the Pareto front (choose the cases that all answer, above, to compare all). At ≤ 0.05: no dearer than the method's own floor. Whiskers: 95 % Wilson intervals. Labels that would cover others are left out. A click on a point shows the cases behind it; the leaderboard above holds the same figures.`;
+    `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: ` +
+    "answers only part of them, and is not on the Pareto front (choose the cases that all " +
+    "answer, above, to compare all). At ≤ 0.05: no dearer than the method's own floor. " +
+    "Whiskers: 95 % Wilson intervals. Labels that would cover others are left out. A click " +
+    "on a point shows the cases behind it; the leaderboard above holds the same figures.";
 }
 
-// A corner of its point for each label where it covers no other label and no point, as nearly as is known before drawing; a label without
-// one is left out, and shown like every other when the pointer is on its point.
+// A corner of its point for each label where it covers no other label and no point, as nearly as is
+// known before drawing; a label without one is left out, and shown like every other when the
+// pointer is on its point.
 function placeLabels(points, width) {
   const xs = points.map((p) => Math.log10(p.us)),
     low = Math.min(...xs),

@@ -6,7 +6,8 @@ function drawRun() {
   const noise =
     r.noise === null || r.noise === undefined
       ? "no times were taken"
-      : `90th percentile of the probe ${percent(r.noise)} above its median, worst bin${r.noise > 0.25 ? ": this run was disturbed, doubt its times" : ""}`;
+      : `90th percentile of the probe ${percent(r.noise)} above its median, worst ` +
+        `bin${r.noise > 0.25 ? ": this run was disturbed, doubt its times" : ""}`;
   const facts = [
     ["About", r.about || "–"],
     ["Started, finished (UTC)", `${stamp(r.started)}, ${stamp(r.finished)}`],

@@ -51,7 +51,8 @@ function select(label, options, value, change) {
   return el("label", { class: "choice" }, el("span", {}, label), box);
 }
 
-// A table whose columns sort by a click on their heads. columns: {title, key(row) for sorting, cell(row) -> node or text, left, note}.
+// A table whose columns sort by a click on their heads. columns: {title, key(row) for sorting,
+// cell(row) -> node or text, left, note}.
 function sortable(columns, rows, { start, descending = false, caption, id } = {}) {
   let by = start,
     down = descending;

@@ -1,4 +1,15 @@
-// What is said of one case in words: its facts, its certificate, what OFG looked at, every method's verdict.
+// What is said of one case in words: its facts, its certificate, what OFG looked at, every method's
+// verdict.
+
+// How OFG came to its hit: answer.found.
+const FOUND_WORDS = {
+  start: "faces that meet at the start",
+  end: "faces that meet at the end",
+  "edge-face": "a virtual edge of A meets a face of B",
+  "face-edge": "a virtual edge of B meets a face of A",
+  "edge-edge": "a moving edge meets an edge",
+  inside: "one body lies inside the other",
+};
 const moves = (i, side) =>
   Boolean(norm(D.cases[`displacement${side}`][i]) || D.cases[`angle${side}`][i]);
 
@@ -9,7 +20,8 @@ function motionWords(i, side) {
     about = of("about");
   if (!moves(i, side)) return "rests";
   const turn = of("angle")
-    ? `turns ${number(of("angle"))} rad${norm(about) ? ` about its point (${about.map((x) => number(x)).join(", ")})` : ""}`
+    ? `turns ${number(of("angle"))} ` +
+      `rad${norm(about) ? ` about its point (${about.map((x) => number(x)).join(", ")})` : ""}`
     : "";
   return [d ? `moves ${number(d)}` : "", turn].filter(Boolean).join(", ");
 }
@@ -21,7 +33,10 @@ function facts(i) {
     drawn = D.drawn[i];
   const bodyWords = (k) => {
     const b = D.bodies[drawn[k]];
-    return `${b.name}, ${b.kind}${b.pieces ? ` of ${b.pieces.length} pieces` : ""}, ${plural(b.f[2], "face")}${b.rounded ? " (drawn rounded to float32)" : ""}`;
+    return (
+      `${b.name}, ${b.kind}${b.pieces ? ` of ${b.pieces.length} pieces` : ""}, ` +
+      `${plural(b.f[2], "face")}${b.rounded ? " (drawn rounded to float32)" : ""}`
+    );
   };
   const rows = [
     [
@@ -61,16 +76,22 @@ function facts(i) {
     "div",
     {},
     el("h2", { class: "case-name" }, c.case[i]),
-    el(
-      "p",
-      { class: "note" },
-      `${c.question[i]}${D.scenarios[c.scenario[i]] ? " · " + D.scenarios[c.scenario[i]].exposes : ""}`,
-    ),
+    el("p", { class: "note" }, `${c.question[i]}${exposed(" · ", c.scenario[i])}`),
     el(
       "dl",
       { class: "facts" },
       rows.map(([k, ...v]) => [el("dt", {}, k), el("dd", {}, v)]),
     ),
+  );
+}
+
+function planeWords(g, plane) {
+  const frame = { A: "turning with A", B: "turning with B" }[plane.frame] || "fixed in space";
+  const parts = g.a.kind === "union" || g.b.kind === "union" ? "pieces" : "faces";
+  const groups = `; it is the tightest of ${plane.count} between groups of ${parts}`;
+  return (
+    `Certified: this plane (${frame}) separates them now${plane.count > 1 ? groups : ""}. ` +
+    `Clearance along it, in doubles: ${number(plane.gap)}.`
   );
 }
 
@@ -83,8 +104,7 @@ function proofWords(i, g, { plane, point }, t) {
   if (c.label[i] === "uncertain") return `No certificate: ${c.reason[i]}`;
   if (D.run.refused) return `Stated, not certified: ${D.run.refused}.`;
   if (point) return "Certified: the marked point lies inside both bodies at this time.";
-  if (plane)
-    return `Certified: this plane (${{ A: "turning with A", B: "turning with B" }[plane.frame] || "fixed in space"}) separates them now${plane.count > 1 ? `; it is the tightest of ${plane.count} between groups of ${g.a.kind === "union" || g.b.kind === "union" ? "pieces" : "faces"}` : ""}. Clearance along it, in doubles: ${number(plane.gap)}.`;
+  if (plane) return planeWords(g, plane);
   if (c.label[i] === "hit" && t > (c.t_lo[i] ?? 0))
     return t < c.t_hi[i]
       ? "Between the certified ends of the bracket."
@@ -120,9 +140,13 @@ function ofgWords(i, label, x) {
   const of = (n, b, piece) =>
     `${n} of the ${b.pieces && piece >= 0 ? b.pieces[piece][1] : b.f[2]} faces`;
   lines.push(
-    `It took ${of(x.na, sa, x.pieces[0])} of A${sa.pieces ? ` (piece ${x.pieces[0] + 1} of ${sa.pieces.length})` : ""} and ${of(x.nb, sb, x.pieces[1])} of B${sb.pieces ? ` (piece ${x.pieces[1] + 1} of ${sb.pieces.length})` : ""}` +
+    `It took ${of(x.na, sa, x.pieces[0])} of ` +
+      `A${sa.pieces ? ` (piece ${x.pieces[0] + 1} of ${sa.pieces.length})` : ""} and ` +
+      `${of(x.nb, sb, x.pieces[1])} of ` +
+      `B${sb.pieces ? ` (piece ${x.pieces[1] + 1} of ${sb.pieces.length})` : ""}` +
       (x.parts > 1
-        ? `, in the part of the step from ${number(x.window[0])} to ${number(x.window[1])} (one of ${x.parts})`
+        ? `, in the part of the step from ${number(x.window[0])} to ${number(x.window[1])} ` +
+          `(one of ${x.parts})`
         : "") +
       (moving
         ? {
@@ -135,7 +159,8 @@ function ofgWords(i, label, x) {
   );
   if (x.bodies.some((b, k) => b !== D.drawn[i][k]))
     lines.push(
-      "It was asked about CoACD's pieces of the mesh, which are another body than the mesh near its surface.",
+      "It was asked about CoACD's pieces of the mesh, which are another body than the mesh " +
+        "near its surface.",
     );
   const m = D.method.get(label),
     letter = D.outcome[m]?.[i],
@@ -148,7 +173,9 @@ function ofgWords(i, label, x) {
     lines.push("The OFG that made this page answers otherwise than the one of the run.");
   if (x.hit) {
     lines.push(
-      `It answered hit${x.time !== null ? ` at t = ${number(x.time, 8)}` : ""}: ${{ start: "faces that meet at the start", end: "faces that meet at the end", "edge-face": "a virtual edge of A meets a face of B", "face-edge": "a virtual edge of B meets a face of A", "edge-edge": "a moving edge meets an edge", inside: "one body lies inside the other" }[x.found] || x.found}${x.met ? ` (face ${x.met[0]} of A, face ${x.met[1]} of B)` : ""}.`,
+      `It answered hit${x.time !== null ? ` at t = ${number(x.time, 8)}` : ""}: ` +
+        `${FOUND_WORDS[x.found] || x.found}` +
+        `${x.met ? ` (face ${x.met[0]} of A, face ${x.met[1]} of B)` : ""}.`,
     );
     if (truth === "clear")
       lines.push(
@@ -174,11 +201,16 @@ function ofgWords(i, label, x) {
           ? `${side}'s belongs to a piece that was not asked`
           : `${side}'s is the ${ordinal(p)} nearest, ${is ? "taken" : "not taken"}`;
       lines.push(
-        `Faces that do meet${moving ? ` at t = ${number(x.should.time, 6)}` : ""}: ${x.should.faces[0]} of A and ${x.should.faces[1]} of B. ${place(pa, taken[0], "A")}; ${place(pb, taken[1], "B")}.`,
+        `Faces that do meet${moving ? ` at t = ${number(x.should.time, 6)}` : ""}: ` +
+          `${x.should.faces[0]} of A and ${x.should.faces[1]} of B. ` +
+          `${place(pa, taken[0], "A")}; ${place(pb, taken[1], "B")}.`,
       );
       if (taken[0] && taken[1] && moving && !x.stopped)
         lines.push(
-          `Both were taken, but at the start, at the end and along the virtual edges (straight paths of the vertices of A${x.vertices_b ? " and B" : ""}) they do not touch: edges against edges in motion, and what curves, are left out as the article has it.`,
+          "Both were taken, but at the start, at the end and along the virtual edges " +
+            `(straight paths of the vertices of A${x.vertices_b ? " and B" : ""}) they do not ` +
+            "touch: edges against edges in motion, and what curves, are left out as the " +
+            "article has it.",
         );
     } else
       lines.push(
@@ -194,8 +226,11 @@ function ofgWords(i, label, x) {
   );
 }
 
-const ordinal = (n) =>
-  `${n.toLocaleString("en")}${n % 100 > 10 && n % 100 < 14 ? "th" : ["th", "st", "nd", "rd"][n % 10] || "th"}`;
+function ordinal(n) {
+  const teen = n % 100 > 10 && n % 100 < 14;
+  const ending = teen ? "th" : ["th", "st", "nd", "rd"][n % 10] || "th";
+  return `${n.toLocaleString("en")}${ending}`;
+}
 
 function ofPieces(i, m) {
   const own = D.truth[m].get(i);
