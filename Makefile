@@ -9,7 +9,7 @@ NATIVE := CMakeLists.txt pyproject.toml \
 	$(shell find ofg experiments/truth -name '*.[hc]pp' -o -name CMakeLists.txt)
 
 SOURCES = $(shell git ls-files '*.[hc]pp')
-PAGE := experiments/report/page
+PAGE := experiments/publish/report/page
 REUSE := REUSE_ENCODING_MODULE=charset_normalizer $(BIN)/reuse
 
 .PHONY: help env build quick test lint style types layers lines format licences lock stub engines browser native \
@@ -116,13 +116,13 @@ bench-ofg: build
 	$(BIN)/python -m experiments.bench_ofg
 
 bench-truth: build
-	$(BIN)/python -m experiments.truth.bench
+	$(BIN)/python -m experiments.truth.audit.bench
 
 crosscheck: build
-	$(BIN)/python -m experiments.truth.crosscheck
+	$(BIN)/python -m experiments.truth.audit.crosscheck
 
 attack: build
-	$(BIN)/python -m experiments.truth.attack
+	$(BIN)/python -m experiments.truth.audit.attack
 
 TRIES ?= 50
 drill: build

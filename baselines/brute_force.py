@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Callable
+from collections.abc import Callable
 
 import ofg
 from ofg import QUESTIONS, Query
@@ -12,7 +12,9 @@ from .contract import Method, Verdict
 
 
 class BruteForce(Method):
-    """Every pair of faces and, in a sweep, every virtual edge of A against every face of B. Sees surfaces, and sweeps only A's vertices."""
+    """Every pair of faces and, in a sweep, every virtual edge of A against every face of B. Sees
+    surfaces, and sweeps only A's vertices.
+    """
 
     name = "brute-force"
     engine = "ofg"
@@ -23,7 +25,10 @@ class BruteForce(Method):
     solid = False
     movers, about = 2, True
     gives_time = True
-    guarantee = "overlap: surfaces that meet are found, to double rounding; sweeps: only what A's vertices meet on their chords"
+    guarantee = (
+        "overlap: surfaces that meet are found, to double rounding; sweeps: only what A's vertices"
+        " meet on their chords"
+    )
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)

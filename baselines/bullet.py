@@ -1,10 +1,10 @@
 """Bullet 3 through PyBullet: convex hulls by getClosestPoints, at one pose or at substeps.
 
-Sweeps are sampled, because getClosestPoints knows no motion. Bullet's continuous casts, which PyBullet does not
-offer, are in bullet_casts.py; its swept sphere belongs to the stepping track.
-A union is a plain loop over all pairs of pieces: PyBullet's compound shape takes no vertices. Meshes are refused, but for
-the -coacd methods, which decompose them: a hull would be another body, and mesh against mesh silently returns nothing.
-Traps worked around here:
+Sweeps are sampled, because getClosestPoints knows no motion. Bullet's continuous casts, which
+PyBullet does not offer, are in bullet_casts.py; its swept sphere belongs to the stepping track. A
+union is a plain loop over all pairs of pieces: PyBullet's compound shape takes no vertices. Meshes
+are refused, but for the -coacd methods, which decompose them: a hull would be another body, and
+mesh against mesh silently returns nothing. Traps worked around here:
 - A hull is given by its vertices only; with indices it would become a concave mesh.
 - A hull that is not removed leaks 27 KiB, so each dies with the query it was built for.
 - One DIRECT client per process: a client costs 28 MB, and many of them get the process killed.
@@ -27,11 +27,14 @@ from .pieces import Decomposed
 from .sampling import Discrete, Substeps
 from .units import Normalised
 
-MARGIN = 0.001  # of each hull, whatever its size; cubes in 200 rotations: distances are 2e-3 short to within 1e-12
+# of each hull, whatever its size; cubes in 200 rotations: distances are 2e-3 short to within 1e-12
+MARGIN = 0.001
 
 
 class Bullet(Discrete):
-    """As it comes: hulls carry a margin of 0.001 each, so pairs closer than 0.002 are reported to touch."""
+    """As it comes: hulls carry a margin of 0.001 each, so pairs closer than 0.002 are reported to
+    touch.
+    """
 
     name = "bullet"
     engine, imports = "pybullet", "pybullet"
@@ -53,8 +56,17 @@ class Bullet(Discrete):
             position, turn, position_b, turn_b = at
             for a, b in pairs:
                 points = bullet.getClosestPoints(
-                    -1, -1, 0.0, collisionShapeA=a, collisionShapeB=b, collisionShapePositionA=position, collisionShapeOrientationA=turn,
-                    collisionShapePositionB=position_b, collisionShapeOrientationB=turn_b, physicsClientId=client)
+                    -1,
+                    -1,
+                    0.0,
+                    collisionShapeA=a,
+                    collisionShapeB=b,
+                    collisionShapePositionA=position,
+                    collisionShapeOrientationA=turn,
+                    collisionShapePositionB=position_b,
+                    collisionShapeOrientationB=turn_b,
+                    physicsClientId=client,
+                )
                 if any(point[8] < threshold for point in points):
                     return True
             return False
@@ -64,13 +76,17 @@ class Bullet(Discrete):
 
 
 class BulletNoMargin(Normalised, Bullet):
-    """The margins added back to the reported distance: right to 1e-12 on cubes at gaps from 1e-1 to -1e-1."""
+    """The margins added back to the reported distance: right to 1e-12 on cubes at gaps from 1e-1 to
+    -1e-1.
+    """
 
     name = "bullet-no-margin"
     configuration = "best effort"
-    tolerance = Tolerance()
+    own_tolerance = Tolerance()  # the margins are subtracted
     threshold = -2 * MARGIN
-    guarantee = "GJK/EPA in doubles on hulls grown by 0.001 each, the growth subtracted from the distance"
+    guarantee = (
+        "GJK/EPA in doubles on hulls grown by 0.001 each, the growth subtracted from the distance"
+    )
 
 
 class BulletSubsteps(Substeps, Bullet):
@@ -85,7 +101,10 @@ class BulletNoMarginSubsteps(Substeps, BulletNoMargin):
 
 class BulletCoacd(Decomposed, BulletNoMargin):
     name = "bullet-coacd"
-    guarantee = "bullet-no-margin on the pieces of CoACD at threshold 0.05, which are another body than the mesh"
+    guarantee = (
+        "bullet-no-margin on the pieces of CoACD at threshold 0.05, which are another body than the"
+        " mesh"
+    )
 
 
 class BulletCoacdSubsteps(Substeps, BulletCoacd):
@@ -99,12 +118,19 @@ def _client():
         with _quiet():
             import pybullet
     except ImportError as error:
-        raise MissingEngine("pybullet is not installed; install it with: pip install pybullet") from error
+        raise MissingEngine(
+            "pybullet is not installed; install it with: pip install pybullet"
+        ) from error
     return pybullet, pybullet.connect(pybullet.DIRECT)
 
 
 def _hulls(bullet, client: int, body: Body) -> list[int]:
-    shapes = [bullet.createCollisionShape(bullet.GEOM_MESH, vertices=p.vertices.tolist(), physicsClientId=client) for p in body.pieces]
+    shapes = [
+        bullet.createCollisionShape(
+            bullet.GEOM_MESH, vertices=p.vertices.tolist(), physicsClientId=client
+        )
+        for p in body.pieces
+    ]
     if min(shapes) < 0:
         raise Unsupported(f"pybullet makes no hull of body '{body.name}'")
     return shapes
@@ -119,7 +145,9 @@ def _remove(bullet, client: int, shapes: list[int]) -> None:
 
 @contextmanager
 def _quiet():
-    """Send what C code prints to nowhere. C buffers apart from Python, so its buffer is flushed while still diverted."""
+    """Send what C code prints to nowhere. C buffers apart from Python, so its buffer is flushed
+    while still diverted.
+    """
     flush = ctypes.CDLL(None).fflush
     flush(None)
     saved, null = [os.dup(1), os.dup(2)], os.open(os.devnull, os.O_WRONLY)
@@ -140,4 +168,11 @@ def _place(pose: Pose) -> tuple[list, list]:
     return pose.position.tolist(), [x, y, z, w]
 
 
-METHODS = [Bullet, BulletNoMargin, BulletSubsteps, BulletNoMarginSubsteps, BulletCoacd, BulletCoacdSubsteps]
+METHODS = [
+    Bullet,
+    BulletNoMargin,
+    BulletSubsteps,
+    BulletNoMarginSubsteps,
+    BulletCoacd,
+    BulletCoacdSubsteps,
+]

@@ -18,8 +18,9 @@ from __future__ import annotations
 import ctypes
 import math
 import weakref
+from collections.abc import Callable
 from functools import cache
-from typing import Callable, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -53,8 +54,15 @@ class _Cast(Method):
         self.refuse(query)
         plugin, legs = _plugin(), _legs(query, self.legs(query))
         question = plugin.bullet_casts_make(
-            self.kind, self.hull_margin, self.start_unit, self.halvings,
-            *_pieces(query.a), *_pieces(query.b), legs, len(legs))
+            self.kind,
+            self.hull_margin,
+            self.start_unit,
+            self.halvings,
+            *_pieces(query.a),
+            *_pieces(query.b),
+            legs,
+            len(legs),
+        )
         time = ctypes.c_double()
         at, cast = ctypes.byref(time), plugin.bullet_casts_ask
 
@@ -73,7 +81,7 @@ class _Exact(Normalised):
     """No margin, the unit of units.csv, and the start tested first."""
 
     configuration = "best effort"
-    tolerance = Tolerance()
+    own_tolerance = Tolerance()
     hull_margin = 0.0
 
     @property
@@ -90,7 +98,9 @@ class BulletSubsimplexCast(_Cast):
 
 
 class BulletSubsimplexCastExact(_Exact, BulletSubsimplexCast):
-    """In units from 32 on 9 of 253 hits are missed: bodies that start 1e-10 or less from contact."""
+    """In units from 32 on 9 of 253 hits are missed: bodies that start 1e-10 or less from
+    contact.
+    """
 
     name = "bullet-subsimplex-cast-exact"
     guarantee = "btSubsimplexConvexCast without margins, the start tested by GJK/EPA"
@@ -111,6 +121,7 @@ class BulletGjkCastExact(_Exact, BulletGjkCast):
 
     name = "bullet-gjk-cast-exact"
     hull_margin = 0.001
+    own_tolerance = Tolerance(2 * hull_margin + NEAR, sides="alarms")
     guarantee = "btGjkConvexCast on hulls grown by 0.001 of its unit, the start tested by GJK/EPA"
 
 
@@ -121,8 +132,10 @@ class BulletContinuousCast(_Cast):
     questions = frozenset({"translation", "motion"})
     kind = 2
     tolerance = Tolerance(2 * MARGIN + NEAR, sides="alarms")
-    guarantee = ("btContinuousConvexCollision on hulls grown by 0.04 each, a hit from 0.001 on; "
-                 "turns up to 45 degrees")
+    guarantee = (
+        "btContinuousConvexCollision on hulls grown by 0.04 each, a hit from 0.001 on; "
+        "turns up to 45 degrees"
+    )
 
 
 class BulletContinuousCastExact(_Exact, BulletContinuousCast):
@@ -133,9 +146,12 @@ class BulletContinuousCastExact(_Exact, BulletContinuousCast):
     """
 
     name = "bullet-continuous-cast-exact"
+    own_tolerance = Tolerance(NEAR, sides="alarms")
     halvings = 20
-    guarantee = ("btContinuousConvexCollision without margins, turns in legs of 45 degrees, "
-                 "the start tested by GJK/EPA")
+    guarantee = (
+        "btContinuousConvexCollision without margins, turns in legs of 45 degrees, "
+        "the start tested by GJK/EPA"
+    )
 
     def legs(self, query: Query) -> int:
         turn = max(abs(query.motion.angle), abs(query.motion_b.angle))
@@ -145,9 +161,14 @@ class BulletContinuousCastExact(_Exact, BulletContinuousCast):
 def _legs(query: Query, n: int) -> np.ndarray:
     """(n, 28): A at the start and the end of each leg, then B."""
     sides = ((query.motion, query.pose_a), (query.motion_b, query.pose_b))
-    return np.array([np.concatenate([_place(motion, pose, t)
-                                     for motion, pose in sides for t in (i / n, (i + 1) / n)])
-                     for i in range(n)])
+    return np.array(
+        [
+            np.concatenate(
+                [_place(motion, pose, t) for motion, pose in sides for t in (i / n, (i + 1) / n)]
+            )
+            for i in range(n)
+        ]
+    )
 
 
 def _place(motion: Motion, pose: Pose, t: float) -> np.ndarray:
@@ -165,8 +186,9 @@ def _pieces(body: Body) -> tuple[np.ndarray, np.ndarray, int]:
 @cache
 def _plugin() -> ctypes.CDLL:
     plugin = library.load("libbullet")
-    real, whole = (np.ctypeslib.ndpointer(kind, flags="C_CONTIGUOUS")
-                   for kind in (np.float64, np.int64))
+    real, whole = (
+        np.ctypeslib.ndpointer(kind, flags="C_CONTIGUOUS") for kind in (np.float64, np.int64)
+    )
     body, number = [real, whole, ctypes.c_int64], ctypes.c_int
     plugin.bullet_casts_make.restype = ctypes.c_void_p
     options = [number, ctypes.c_double, ctypes.c_double, number]
@@ -176,5 +198,11 @@ def _plugin() -> ctypes.CDLL:
     return plugin
 
 
-METHODS = [BulletSubsimplexCast, BulletSubsimplexCastExact, BulletGjkCast, BulletGjkCastExact,
-           BulletContinuousCast, BulletContinuousCastExact]
+METHODS = [
+    BulletSubsimplexCast,
+    BulletSubsimplexCastExact,
+    BulletGjkCast,
+    BulletGjkCastExact,
+    BulletContinuousCast,
+    BulletContinuousCastExact,
+]

@@ -1,15 +1,17 @@
-"""Coal 3 (formerly hpp-fcl): convex and mesh overlap at one pose or at substeps. It has no continuous test.
+"""Coal 3 (formerly hpp-fcl): convex and mesh overlap at one pose or at substeps. It has no
+continuous test.
 
-Convex methods see a union as a plain loop over all pairs of its pieces; mesh methods see the soup of the pieces' faces.
-Of 100 cubes face to face, turned together, wrong answers at gaps of (1e-4 1e-6 1e-9 1e-12 -1e-12 -1e-9 -1e-6 -1e-4):
-convex, default 0 0 0 32 25 35 35 0; convex, 1e-12 0 0 0 32 0 0 0 0; mesh, default 0 32 100 100 0 0 0 0; mesh, 1e-12 45 49 49 83 0 0 0 0.
-So a smaller tolerance is no better for meshes, and they are left as they come.
+Convex methods see a union as a plain loop over all pairs of its pieces; mesh methods see the soup
+of the pieces' faces. Of 100 cubes face to face, turned together, wrong answers at gaps of (1e-4
+1e-6 1e-9 1e-12 -1e-12 -1e-9 -1e-6 -1e-4): convex, default 0 0 0 32 25 35 35 0; convex, 1e-12 0 0 0
+32 0 0 0 0; mesh, default 0 32 100 100 0 0 0 0; mesh, 1e-12 45 49 49 83 0 0 0 0. So a smaller
+tolerance is no better for meshes, and they are left as they come.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import product
-from typing import Callable
 
 import numpy as np
 
@@ -29,7 +31,9 @@ def _coal():
 
 
 class CoalConvex(Discrete):
-    """coal.collide with CollisionRequest() as it comes: contacts are computed, tolerances are 1e-6."""
+    """coal.collide with CollisionRequest() as it comes: contacts are computed, tolerances are
+    1e-6.
+    """
 
     name = "coal-convex"
     engine, imports = "coal", "coal"
@@ -64,15 +68,14 @@ class CoalConvex(Discrete):
 
 
 class CoalConvexExact(Normalised, CoalConvex):
-    """A prepared ComputeCollision that asks for no contacts, tolerances 1e-12 (1e-14 gave a wrong sign)."""
+    """A prepared ComputeCollision that asks for no contacts, tolerances 1e-12 (1e-14 gave a wrong
+    sign).
+    """
 
     name = "coal-convex-exact"
     configuration = "best effort"
     guarantee = "GJK/EPA in doubles, tolerance 1e-12"
-
-    @property
-    def tolerance(self) -> Tolerance:
-        return Tolerance(relative=1e-12 / self.length)
+    own_tolerance = Tolerance(1e-12)
 
     def ask_pair(self, coal, a, b) -> Callable:
         collide, result = coal.ComputeCollision(a, b), coal.CollisionResult()
@@ -129,4 +132,11 @@ def _place(pose: Pose):
     return _coal().Transform3s(pose.rotation, np.array(pose.position))
 
 
-METHODS = [CoalConvex, CoalConvexExact, CoalMesh, CoalConvexSubsteps, CoalConvexExactSubsteps, CoalMeshSubsteps]
+METHODS = [
+    CoalConvex,
+    CoalConvexExact,
+    CoalMesh,
+    CoalConvexSubsteps,
+    CoalConvexExactSubsteps,
+    CoalMeshSubsteps,
+]

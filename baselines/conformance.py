@@ -1,7 +1,9 @@
-"""What every method must do, whatever its engine: the properties that `ofg-bench check METHOD` and the tests put it through.
+"""What every method must do, whatever its engine: the properties that `ofg-bench check METHOD` and
+the tests put it through.
 
-Each property is a function of the method that returns a list of faults, each a sentence. They ask easy questions only: how exact a
-method is on hard ones is measured, not required. They run in a process that may die.
+Each property is a function of the method that returns a list of faults, each a sentence. They ask
+easy questions only: how exact a method is on hard ones is measured, not required. They run in a
+process that may die.
 """
 
 from __future__ import annotations
@@ -12,8 +14,8 @@ import math
 import multiprocessing
 import os
 import signal
+from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Callable, Iterator
 
 import numpy as np
 
@@ -28,11 +30,12 @@ UNDECLARED_TIME_ERROR = 0.05  #: what a method that documents no bound is held t
 
 
 def check(method: Method, seconds: float = 60.0) -> list[tuple[str, bool, str]]:
-    """(property, whether it holds, what is wrong) for every property. A crash fails the property it happened in, and so does a hang of
-    more than `seconds`."""
+    """(property, whether it holds, what is wrong) for every property. A crash fails the property it
+    happened in, and so does a hang of more than `seconds`.
+    """
     results: list[tuple[str, bool, str]] = []
     while len(results) < len(PROPERTIES):
-        results += _in_child(method, PROPERTIES[len(results):], seconds)
+        results += _in_child(method, PROPERTIES[len(results) :], seconds)
     return results
 
 
@@ -88,7 +91,9 @@ def body(kind: str, half: float = 1.0) -> Body:
     if kind == "mesh":
         return Body.mesh(cube.vertices, cube.faces, cube.name)
     if kind == "union":
-        return Body.union([box(half / 2, half, half, at=(s * half / 2, 0, 0)) for s in (-1, 1)], cube.name)
+        return Body.union(
+            [box(half / 2, half, half, at=(s * half / 2, 0, 0)) for s in (-1, 1)], cube.name
+        )
     return cube
 
 
@@ -101,13 +106,21 @@ def bar(kind: str) -> Body:
 
 
 def hooked(kind: str) -> Body:
-    """An L in the xy plane: arms of width 1 and length 3 from the corner (0, 0); the notch is 1 < x, y < 3."""
+    """An L in the xy plane: arms of width 1 and length 3 from the corner (0, 0); the notch is 1 <
+    x, y < 3.
+    """
     if kind == "union":
-        return Body.union([box(1.5, 0.5, 0.5, at=(1.5, 0.5, 0)), box(0.5, 1, 0.5, at=(0.5, 2, 0))], "L")
+        return Body.union(
+            [box(1.5, 0.5, 0.5, at=(1.5, 0.5, 0)), box(0.5, 1, 0.5, at=(0.5, 2, 0))], "L"
+        )
     outline = np.array([(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)], float)
     v = np.concatenate([np.c_[outline, np.full(6, z)] for z in (-0.5, 0.5)])
     cap = np.array([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)])
-    wall = [t for i in range(6) for t in ((i, (i + 1) % 6, (i + 1) % 6 + 6), (i, (i + 1) % 6 + 6, i + 6))]
+    wall = [
+        t
+        for i in range(6)
+        for t in ((i, (i + 1) % 6, (i + 1) % 6 + 6), (i, (i + 1) % 6 + 6, i + 6))
+    ]
     return Body.mesh(v, np.concatenate([cap[:, ::-1], cap + 6, wall]), "L")
 
 
@@ -120,7 +133,9 @@ def overlap(kind: str, offset, half: float = 1.0) -> Query:
 
 
 def sweep(question: str, kind: str, start, displacement, half: float = 1.0) -> Query:
-    return Query(question, body(kind, half), body(kind), Pose(position=start), Pose(), Motion(displacement))
+    return Query(
+        question, body(kind, half), body(kind), Pose(position=start), Pose(), Motion(displacement)
+    )
 
 
 def asked(method: Method, query: Query) -> Verdict:
@@ -136,15 +151,37 @@ def sweeps(method: Method) -> list[tuple[str, str]]:
 
 
 def easy(method: Method) -> list[tuple[str, Query, bool]]:
-    """(what it is, query, whether the surfaces meet) of everything the method declares to answer."""
+    """(what it is, query, whether the surfaces meet) of everything the method declares to
+    answer.
+    """
     queries = []
     for kind in kinds(method) if "overlap" in method.questions else ():
         queries.append((f"overlap of {kind} bodies far apart", overlap(kind, (7, 1, 2)), False))
-        queries.append((f"overlap of {kind} bodies 0.25 apart", Query("overlap", body(kind), body(kind), Pose(position=(2.25, 0.5, 0.25))), False))
-        queries.append((f"overlap of {kind} bodies deep in each other", overlap(kind, (0.9, 0.7, 0.5)), True))
+        queries.append(
+            (
+                f"overlap of {kind} bodies 0.25 apart",
+                Query("overlap", body(kind), body(kind), Pose(position=(2.25, 0.5, 0.25))),
+                False,
+            )
+        )
+        queries.append(
+            (f"overlap of {kind} bodies deep in each other", overlap(kind, (0.9, 0.7, 0.5)), True)
+        )
     for question, kind in sweeps(method):
-        queries.append((f"{question} of {kind} bodies, passing 0.5 beside", sweep(question, kind, (-4, 2.5, 0), (8, 0, 0)), False))
-        queries.append((f"{question} of {kind} bodies, moving away", sweep(question, kind, (-3, 0.1, 0.2), (-8, 0, 0)), False))
+        queries.append(
+            (
+                f"{question} of {kind} bodies, passing 0.5 beside",
+                sweep(question, kind, (-4, 2.5, 0), (8, 0, 0)),
+                False,
+            )
+        )
+        queries.append(
+            (
+                f"{question} of {kind} bodies, moving away",
+                sweep(question, kind, (-3, 0.1, 0.2), (-8, 0, 0)),
+                False,
+            )
+        )
     return queries
 
 
@@ -181,13 +218,21 @@ def far_and_near(method: Method) -> Iterator[str]:
 
 
 def contained(method: Method) -> Iterator[str]:
-    """A cube well inside another, at rest or moving a little: a solid method sees it, a surface method does not.
+    """A cube well inside another, at rest or moving a little: a solid method sees it, a surface
+    method does not.
 
-    It stays on one side of x = 0, where the pieces of a union meet in an inner wall that a surface method does see.
+    It stays on one side of x = 0, where the pieces of a union meet in an inner wall that a surface
+    method does see.
     """
-    queries = [(f"overlap, {k}", Query("overlap", body(k, 0.25), body(k), Pose(position=(0.3, 0.1, 0.3))))
-               for k in kinds(method) if "overlap" in method.questions]
-    queries += [(f"{q}, {k}", sweep(q, k, (0.3, 0.1, 0.3), (0.3, 0, 0), half=0.25)) for q, k in sweeps(method)]
+    queries = [
+        (f"overlap, {k}", Query("overlap", body(k, 0.25), body(k), Pose(position=(0.3, 0.1, 0.3))))
+        for k in kinds(method)
+        if "overlap" in method.questions
+    ]
+    queries += [
+        (f"{q}, {k}", sweep(q, k, (0.3, 0.1, 0.3), (0.3, 0, 0), half=0.25))
+        for q, k in sweeps(method)
+    ]
     for what, query in queries:
         verdict = asked(method, query)
         if method.solid and not verdict.hit:
@@ -202,22 +247,46 @@ def notch(method: Method) -> Iterator[str]:
         if kind == "convex" or "overlap" not in method.questions:
             continue
         for at, hit in (((1.75, 1.75, 0), False), ((0.9, 2, 0), True)):
-            if asked(method, Query("overlap", body(kind, 0.3), hooked(kind), Pose(position=at))).hit != hit:
-                yield f"{kind}: a cube {'across the arm' if hit else 'in the notch'} of an L is called {'clear' if hit else 'a hit'}"
+            if (
+                asked(
+                    method, Query("overlap", body(kind, 0.3), hooked(kind), Pose(position=at))
+                ).hit
+                != hit
+            ):
+                yield (
+                    f"{kind}: a cube {'across the arm' if hit else 'in the notch'} of an L is"
+                    f" called {'clear' if hit else 'a hit'}"
+                )
 
 
 def beyond_tolerance(method: Method) -> Iterator[str]:
     """Cubes apart by the declared tolerance and 0.002 more are clear."""
-    allowed = float(method.tolerance.reach(body("convex").size, 0.0)) if method.tolerance.covers("alarms") else 0.0
+    allowed = (
+        float(method.tolerance.reach(body("convex").size, 0.0))
+        if method.tolerance.covers("alarms")
+        else 0.0
+    )
     gap = allowed + 0.002
     for kind in kinds(method):
-        if "overlap" in method.questions and asked(method, Query("overlap", body(kind), body(kind), Pose(position=(2 + gap, 0.3, 0.2)))).hit:
-            yield f"{kind}: cubes {gap:g} apart are called a hit, but the declared tolerance is {method.tolerance}"
+        if (
+            "overlap" in method.questions
+            and asked(
+                method, Query("overlap", body(kind), body(kind), Pose(position=(2 + gap, 0.3, 0.2)))
+            ).hit
+        ):
+            yield (
+                f"{kind}: cubes {gap:g} apart are called a hit, but the declared tolerance is"
+                f" {method.tolerance}"
+            )
 
 
 def head_on(method: Method) -> Iterator[str]:
-    """A cube through another, which it meets at t = 0.3, then one that stops inside it; three lateral offsets."""
-    for (question, kind), side, far in itertools.product(sweeps(method), (0.0, 0.3, 0.7), (10.0, 5.0)):
+    """A cube through another, which it meets at t = 0.3, then one that stops inside it; three
+    lateral offsets.
+    """
+    for (question, kind), side, far in itertools.product(
+        sweeps(method), (0.0, 0.3, 0.7), (10.0, 5.0)
+    ):
         verdict = asked(method, sweep(question, kind, (-5, side, side / 2), (far, 0, 0)))
         exact = 3 / far
         fault = _time_fault(method, verdict, exact) if verdict.hit else "missed"
@@ -228,22 +297,34 @@ def head_on(method: Method) -> Iterator[str]:
 
 def _time_fault(method: Method, verdict: Verdict, exact: float) -> str:
     if not method.gives_time:
-        return "" if math.isnan(verdict.time) else f"gives the time {verdict.time}, but declares that it gives none"
+        return (
+            ""
+            if math.isnan(verdict.time)
+            else f"gives the time {verdict.time}, but declares that it gives none"
+        )
     bound = UNDECLARED_TIME_ERROR if math.isnan(method.time_error) else method.time_error
     if not 0 <= verdict.time <= 1:
         return f"time {verdict.time} is not in [0, 1]"
     off = verdict.time - exact
-    return "" if abs(off) <= bound + 1e-6 else f"time {verdict.time:.6g} is {off:+.2g} off, more than {bound:.2g}"
+    return (
+        ""
+        if abs(off) <= bound + 1e-6
+        else f"time {verdict.time:.6g} is {off:+.2g} off, more than {bound:.2g}"
+    )
 
 
 def same_again(method: Method) -> Iterator[str]:
     """The same callable twice, after others, and prepared anew: one answer."""
-    queries = [query for _, query, _ in easy(method)] + [sweep(q, k, (-5, 0.3, 0.1), (10, 0, 0)) for q, k in sweeps(method)]
+    queries = [query for _, query, _ in easy(method)] + [
+        sweep(q, k, (-5, 0.3, 0.1), (10, 0, 0)) for q, k in sweeps(method)
+    ]
     calls = [method.ready(query) for query in queries]
     first = [call() for call in calls]
-    for what, again in (("asked again in reverse order", [call() for call in reversed(calls)][::-1]),
-                        ("prepared anew", [asked(method, query) for query in queries]),
-                        ("asked after others were prepared", [call() for call in calls])):
+    for what, again in (
+        ("asked again in reverse order", [call() for call in reversed(calls)][::-1]),
+        ("prepared anew", [asked(method, query) for query in queries]),
+        ("asked after others were prepared", [call() for call in calls]),
+    ):
         for query, a, b in zip(queries, first, again):
             if repr(a) != repr(b):
                 yield f"{query.question} {what}: first {_word(a)}, then {_word(b)}"
@@ -268,10 +349,17 @@ def refuses(method: Method) -> Iterator[str]:
     for question, kind in itertools.product(QUESTIONS, KINDS):
         if question in method.questions and kind in method.bodies:
             continue
-        query = overlap(kind, (3, 0, 0)) if question == "overlap" else sweep(question, kind, (-5, 0, 0), (1, 0, 0))
+        query = (
+            overlap(kind, (3, 0, 0))
+            if question == "overlap"
+            else sweep(question, kind, (-5, 0, 0), (1, 0, 0))
+        )
         try:
             method.prepare(query)
-            yield f"{question} of {kind} bodies is not declared, but prepare does not raise Unsupported"
+            yield (
+                f"{question} of {kind} bodies is not declared, but prepare does not raise"
+                " Unsupported"
+            )
         except Unsupported as refusal:
             if not str(refusal).strip():
                 yield f"{question} of {kind} bodies: Unsupported without a reason"
@@ -281,13 +369,21 @@ def translation_is_motion(method: Method) -> Iterator[str]:
     if not {"translation", "motion"} <= set(method.questions):
         return
     for kind, side in itertools.product(kinds(method), (0.2, 2.5)):
-        a, b = (asked(method, sweep(q, kind, (-5, side, 0.1), (10, 0, 0))) for q in ("translation", "motion"))
+        a, b = (
+            asked(method, sweep(q, kind, (-5, side, 0.1), (10, 0, 0)))
+            for q in ("translation", "motion")
+        )
         if a.hit != b.hit or (a.hit and method.gives_time and abs(a.time - b.time) > 1e-3):
-            yield f"{kind}, offset {side}: translation is {_word(a)}, the same as a motion with angle 0 is {_word(b)}"
+            yield (
+                f"{kind}, offset {side}: translation is {_word(a)}, the same as a motion with angle"
+                f" 0 is {_word(b)}"
+            )
 
 
 def turns(method: Method) -> Iterator[str]:
-    """A bar of length 6 that turns in place by 170 degrees sweeps a cube off its path; the same bar at rest misses it."""
+    """A bar of length 6 that turns in place by 170 degrees sweeps a cube off its path; the same bar
+    at rest misses it.
+    """
     if "motion" not in method.questions:
         return
     for kind in kinds(method):
@@ -295,7 +391,10 @@ def turns(method: Method) -> Iterator[str]:
             at, motion = Pose(position=(0, 2, 0)), Motion((0, 0, 0.01), (0, 0, 1), angle)
             verdict = asked(method, Query("motion", bar(kind), body(kind, 0.4), Pose(), at, motion))
             if verdict.hit != hit and not _blind(method, 0.1):
-                yield f"{kind}: a bar turning by {math.degrees(angle):.0f} degrees {'into' if hit else 'beside'} a cube: {_word(verdict)}"
+                yield (
+                    f"{kind}: a bar turning by {math.degrees(angle):.0f} degrees"
+                    f" {'into' if hit else 'beside'} a cube: {_word(verdict)}"
+                )
 
 
 def both_translate(method: Method) -> Iterator[str]:
@@ -334,7 +433,9 @@ def turn_together(method: Method) -> Iterator[str]:
 
 
 def about_a_point(method: Method) -> Iterator[str]:
-    """A bar turns about a point ten lengths off, which takes it through a cube; and about its centre."""
+    """A bar turns about a point ten lengths off, which takes it through a cube; and about its
+    centre.
+    """
     for kind, (about, hit) in itertools.product(_turned_kinds(method), ((-10, True), (0, False))):
         motion = Motion(angle=0.3, about=(about, 0, 0))
         at, where = Pose(position=(0.5, 1.5, 0)), f"turns about ({about}, 0, 0)"
@@ -366,7 +467,13 @@ def _turned_kinds(method: Method) -> list[str]:
 
 
 def _word(verdict: Verdict) -> str:
-    return f"hit at {verdict.time:.6g}" if verdict.hit and not math.isnan(verdict.time) else "hit" if verdict.hit else "clear"
+    return (
+        f"hit at {verdict.time:.6g}"
+        if verdict.hit and not math.isnan(verdict.time)
+        else "hit"
+        if verdict.hit
+        else "clear"
+    )
 
 
 PROPERTIES: list[tuple[str, Callable[[Method], Iterator[str]]]] = [

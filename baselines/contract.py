@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import isnan, nan
-from typing import Any, Callable, ClassVar, Mapping
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -21,7 +22,9 @@ __all__ = ["Method", "MissingEngine", "Tolerance", "Unsupported", "Verdict", "ch
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """hit: the method says that the bodies meet. time: its time of impact in [0, 1], NaN where it gives none."""
+    """hit: the method says that the bodies meet. time: its time of impact in [0, 1], NaN where it
+    gives none.
+    """
 
     hit: bool
     time: float = nan
@@ -47,46 +50,62 @@ def checked(said: object) -> Verdict:
 
 
 class Method(ABC):
-    """One engine in one configuration. Subclass it in a file of `baselines/`; class attributes declare what it is.
+    """One engine in one configuration. Subclass it in a file of `baselines/`; class attributes
+    declare what it is.
 
-    A subclass is made once per worker process and asked many queries; it may cache what it builds per body
-    (`Body.digest`). Making one imports no engine and checks its parameters, so that a run is refused before it begins: by `allowed`,
-    or with a ValueError from an `__init__` of your own. Everything that a user would do once per body pair belongs in `prepare`; what he would do for each new
-    pose belongs in the callable that `prepare` returns, and is timed.
+    A subclass is made once per worker process and asked many queries; it may cache what it builds
+    per body (`Body.digest`). Making one imports no engine and checks its parameters, so that a run
+    is refused before it begins: by `allowed`, or with a ValueError from an `__init__` of your own.
+    Everything that a user would do once per body pair belongs in `prepare`; what he would do for
+    each new pose belongs in the callable that `prepare` returns, and is timed.
     """
 
     name: ClassVar[str]  #: unique, lower case, as in the tables: "fcl-convex"
     engine: ClassVar[str]  #: distribution whose version the manifest records: "python-fcl"
     imports: ClassVar[str]  #: module that must import: "fcl"
-    configuration: ClassVar[str]  #: "default" (what the documentation shows a newcomer), "best effort", "alternative", "article"
+    #: "default" (what the documentation shows a newcomer), "best effort", "alternative", "article"
+    configuration: ClassVar[str]
     questions: ClassVar[frozenset[str]]  #: subset of ofg.QUESTIONS
     bodies: ClassVar[frozenset[str]]  #: subset of {"convex", "union", "mesh"}
     solid: ClassVar[bool]  #: False: tests surfaces, so a contained body is not seen
     #: 1: `prepare` gets queries in which A alone moves (frames.one_mover). 2: it reads motion_b too
     movers: ClassVar[int] = 1
-    #: True: it reads Motion.about. False: a body that turns about a point gets that point as its origin
+    #: True: it reads Motion.about. False: a body that turns about a point gets that point as its
+    #: origin
     about: ClassVar[bool] = False
     #: True: of a mesh it answers about the convex pieces of ofg.decompose, by whose truth it is
     #: judged; may be a property
     decomposes: bool = False
     gives_time: ClassVar[bool] = False  #: returns a time of impact for sweeps
-    tolerance: Tolerance = NONE  #: how far from the truth an answer may be by its documentation; may be a property
+    tolerance: Tolerance = (
+        NONE  #: how far from the truth an answer may be by its documentation; may be a property
+    )
     precision: str = "double"  #: "single" where the engine computes, or holds a body, in float32
     guarantee: ClassVar[str]  #: one line: what an answer is worth by its documentation
-    time_error: float = nan  #: documented bound on |time - true time|, as a share of the step; may be a property
-    #: False: its engine may answer the same question otherwise another time, so that no answer of it proves a change
+    time_error: float = (
+        nan  #: documented bound on |time - true time|, as a share of the step; may be a property
+    )
+    #: False: its engine may answer the same question otherwise another time, so that no answer of
+    #: it proves a change
     repeatable: ClassVar[bool] = True
-    cheapest: ClassVar[Mapping[str, Any]] = {}  #: parameters of its cheapest call, which gives its floor: {"n": 1} for n substeps
-    parameters: Mapping[str, Any] = {}  #: name -> default; the first is the one its accuracy-speed curve runs over
+    cheapest: ClassVar[
+        Mapping[str, Any]
+    ] = {}  #: parameters of its cheapest call, which gives its floor: {"n": 1} for n substeps
+    parameters: Mapping[
+        str, Any
+    ] = {}  #: name -> default; the first is the one its accuracy-speed curve runs over
     #: name -> (least, most) of a number, or the words that it takes; others take all of their kind
     allowed: ClassVar[Mapping[str, Allowed]] = {}
-    unlimited: ClassVar[frozenset[str]] = frozenset()  #: whole-number parameters that take "inf" too
+    #: whole-number parameters that take "inf" too
+    unlimited: ClassVar[frozenset[str]] = frozenset()
 
     def __init__(self, **parameters: Any) -> None:
         unknown = sorted(set(parameters) - set(self.parameters))
         if unknown:
             known = ", ".join(self.parameters) or "none"
-            raise ValueError(f"Method '{self.name}' has no parameter {', '.join(unknown)}; it has: {known}.")
+            raise ValueError(
+                f"Method '{self.name}' has no parameter {', '.join(unknown)}; it has: {known}."
+            )
         for name, value in parameters.items():
             unlimited = name in self.unlimited
             if wrong := fault(value, self.parameters[name], self.allowed.get(name), unlimited):
@@ -95,9 +114,13 @@ class Method(ABC):
 
     @property
     def label(self) -> str:
-        """The name, the first parameter, and the others that differ from their defaults: 'ofg k=8'. `registry.make` reads it back."""
+        """The name, the first parameter, and the others that differ from their defaults: 'ofg k=8'.
+        `registry.make` reads it back.
+        """
         defaults = type(self).parameters
-        shown = {k: v for i, (k, v) in enumerate(self.parameters.items()) if i == 0 or v != defaults[k]}
+        shown = {
+            k: v for i, (k, v) in enumerate(self.parameters.items()) if i == 0 or v != defaults[k]
+        }
         return " ".join([self.name, *(f"{k}={v}" for k, v in shown.items())])
 
     def ready(self, query: Query) -> Callable[[], Verdict]:
@@ -124,9 +147,8 @@ class Method(ABC):
 
     @abstractmethod
     def prepare(self, query: Query) -> Callable[[], Verdict]:
-        """Build for `query` and return the callable that answers it. Raises Unsupported with a reason.
+        """Build for `query` and return the callable that answers it. Raises Unsupported with a
+        reason.
 
         Called by `ready`, with the motions as `movers` and `about` declare them.
         """
-
-

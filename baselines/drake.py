@@ -1,8 +1,8 @@
 """Drake's SceneGraph: hulls at one pose or at substeps, by HasCollisions or by signed distance.
 
-A union is one geometry per piece on the same frame. Every call goes through Drake's system framework (a pose is fixed on an input
-port and the query port evaluated), which costs more than the test itself; so it does for Drake's users.
-Drake 1.51.1 is the last with wheels for Python 3.11.
+A union is one geometry per piece on the same frame. Every call goes through Drake's system
+framework (a pose is fixed on an input port and the query port evaluated), which costs more than the
+test itself; so it does for Drake's users. Drake 1.51.1 is the last with wheels for Python 3.11.
 """
 
 from __future__ import annotations
@@ -23,7 +23,9 @@ def _drake():
         import pydrake.geometry
         import pydrake.math
     except ImportError as error:
-        raise MissingEngine("drake is not installed; install it with: pip install drake==1.51.1") from error
+        raise MissingEngine(
+            "drake is not installed; install it with: pip install drake==1.51.1"
+        ) from error
     return pydrake
 
 
@@ -46,7 +48,10 @@ class Drake(Discrete):
         graph = geometry.SceneGraph()
         source = graph.RegisterSource("ofg")
         frame = graph.RegisterFrame(source, geometry.GeometryFrame("a"))
-        ids_a = [graph.RegisterGeometry(source, frame, g) for g in _geometries(pydrake, query.a, "a", transform())]
+        ids_a = [
+            graph.RegisterGeometry(source, frame, g)
+            for g in _geometries(pydrake, query.a, "a", transform())
+        ]
         frames = [frame]
         if query.motion_b.rests:
             geometries_b = _geometries(pydrake, query.b, "b", transform(query.pose_b.matrix))
@@ -90,7 +95,10 @@ class DrakeDistance(Drake):
     guarantee = "signed distance by GJK/EPA (FCL with libccd) in doubles"
 
     def ask(self, query_object, ids_a, ids_b) -> bool:
-        return any(query_object.ComputeSignedDistancePairClosestPoints(a, b).distance < 0 for a, b in product(ids_a, ids_b))
+        return any(
+            query_object.ComputeSignedDistancePairClosestPoints(a, b).distance < 0
+            for a, b in product(ids_a, ids_b)
+        )
 
 
 class DrakeSubsteps(Substeps, Drake):
@@ -105,7 +113,19 @@ class DrakeDistanceSubsteps(Substeps, DrakeDistance):
 
 def _geometries(pydrake, body: Body, side: str, at) -> list:
     geometry = pydrake.geometry
-    return [geometry.GeometryInstance(at, geometry.Convex(np.array(p.vertices.T), f"{side}{i}"), f"{side}{i}") for i, p in enumerate(body.pieces)]
+    return [
+        geometry.GeometryInstance(
+            at, geometry.Convex(np.array(p.vertices.T), f"{side}{i}"), f"{side}{i}"
+        )
+        for i, p in enumerate(body.pieces)
+    ]
 
 
-METHODS = [Drake, DrakeExact, DrakeExactSubsteps, DrakeDistance, DrakeSubsteps, DrakeDistanceSubsteps]
+METHODS = [
+    Drake,
+    DrakeExact,
+    DrakeExactSubsteps,
+    DrakeDistance,
+    DrakeSubsteps,
+    DrakeDistanceSubsteps,
+]

@@ -1,12 +1,16 @@
-"""FCL 0.7 through python-fcl: convex and mesh overlap, signed distance, and each usable mode of its continuous request.
+"""FCL 0.7 through python-fcl: convex and mesh overlap, signed distance, and each usable mode of its
+continuous request.
 
-Convex methods see a union as a plain loop over all pairs of its pieces; mesh methods see the soup of the pieces' faces.
-Traps worked around here:
-- python-fcl's CollisionResult accumulates, so every call gets a new one; a Transform costs 5 us to make, so poses are prebuilt.
-- `CCDM_LINEAR` never initialises its reference point, so its answers depend on what the process freed before: see `_Linear`.
-- Conservative advancement of a Convex against a BVH segfaults; here both bodies are always given in the same form.
-Not offered, as they answer nothing usable: RAY_SHOOTING (returns -1), POLYNOMIAL (changes the model, time 0), SPLINE, and SCREW
-(another path than ours; pure translations 0.27 of the step early, head-on at 0.3).
+Convex methods see a union as a plain loop over all pairs of its pieces; mesh methods see the soup
+of the pieces' faces. Traps worked around here:
+- python-fcl's CollisionResult accumulates, so every call gets a new one; a Transform costs 5 us to
+  make, so poses are prebuilt.
+- `CCDM_LINEAR` never initialises its reference point, so its answers depend on what the process
+  freed before: see `_Linear`.
+- Conservative advancement of a Convex against a BVH segfaults; here both bodies are always given in
+  the same form. Not offered, as they answer nothing usable: RAY_SHOOTING (returns -1), POLYNOMIAL
+  (changes the model, time 0), SPLINE, and SCREW (another path than ours; pure translations 0.27 of
+  the step early, head-on at 0.3).
 """
 
 from __future__ import annotations
@@ -14,9 +18,9 @@ from __future__ import annotations
 import ctypes
 import math
 import sys
+from collections.abc import Callable
 from functools import cache
 from itertools import product
-from typing import Callable
 
 import numpy as np
 
@@ -26,18 +30,27 @@ from .contract import Method, MissingEngine, Tolerance, Unsupported, Verdict
 from .sampling import Discrete, Substeps
 from .units import Normalised
 
-#: Bytes of FCL 0.7's InterpMotion, the object of CCDM_LINEAR: of all sizes from 24 to 2024, only stale blocks of this one change answers.
-#: valgrind names no other memory that conservative advancement reads unset, on the heap or the stack.
+#: Bytes of FCL 0.7's InterpMotion, the object of CCDM_LINEAR: of all sizes from 24 to 2024, only
+#: stale blocks of this one change answers.
+#: valgrind names no other memory that conservative advancement reads unset, on the heap or the
+#: stack.
 MOTION_BYTES = 504
-GJK = 1e-6  #: length: collision_tolerance and distance_tolerance of both of FCL's GJK solvers, by their headers
-HEAP = {"zero": 0x00, "filled": 0x7F}  #: bytes that an InterpMotion finds; 0x7F makes numbers of 1e306
+#: length: collision_tolerance and distance_tolerance of both of FCL's GJK solvers, by their headers
+GJK = 1e-6
+#: bytes that an InterpMotion finds; 0x7F makes numbers of 1e306
+HEAP = {
+    "zero": 0x00,
+    "filled": 0x7F,
+}
 
 
 def _fcl():
     try:
         import fcl
     except ImportError as error:
-        raise MissingEngine("python-fcl is not installed; install it with: pip install python-fcl") from error
+        raise MissingEngine(
+            "python-fcl is not installed; install it with: pip install python-fcl"
+        ) from error
     return fcl
 
 
@@ -50,11 +63,16 @@ class _Convex:
 
     def shapes(self, body: Body) -> list:
         fcl = _fcl()
-        return [fcl.Convex(p.vertices, len(p.faces), np.insert(p.faces, 0, 3, axis=1).ravel().tolist()) for p in body.pieces]
+        return [
+            fcl.Convex(p.vertices, len(p.faces), np.insert(p.faces, 0, 3, axis=1).ravel().tolist())
+            for p in body.pieces
+        ]
 
 
 class _Mesh:
-    """Bodies as bounding-volume trees over their triangles (OBBRSS): surfaces, so containment is not seen."""
+    """Bodies as bounding-volume trees over their triangles (OBBRSS): surfaces, so containment is
+    not seen.
+    """
 
     engine, imports = "python-fcl", "fcl"
     bodies = frozenset({"convex", "union", "mesh"})
@@ -107,8 +125,8 @@ class FclConvex(_Convex, _Overlap):
 
 
 class FclConvexExact(Normalised, FclConvex):
-    # In small units faces that a tilt of 1e-7 to 1e-9 wedges into each other are missed: 39 of 62 hits with radius 32,
-    # 13 with 1024, none in the unit chosen since (near_parallel).
+    # In small units faces that a tilt of 1e-7 to 1e-9 wedges into each other are missed: 39 of 62
+    # hits with radius 32, 13 with 1024, none in the unit chosen since (near_parallel).
     name = "fcl-convex-exact"
     configuration = "best effort"
     guarantee = "GJK (libccd) in doubles, in the unit of units.csv, at the origin"
@@ -136,7 +154,8 @@ class FclMesh(_Mesh, _Overlap):
 class FclDistance(FclConvex):
     """Overlap by the sign of the signed distance.
 
-    Aborts the process (uncaught std::logic_error in EPA) near touching: cubes face to face, turned together, 6, 3, 8, 4, 2 of 600 at
+    Aborts the process (uncaught std::logic_error in EPA) near touching: cubes face to face, turned
+    together, 6, 3, 8, 4, 2 of 600 at
     -1e-8, -1e-9, -1e-10, -1e-11, -1e-12. Kept as a method of its own so that its rows show it.
     """
 
@@ -181,11 +200,17 @@ class _Continuous(Method):
         path = self.path[query.question]
         linear = path == "CCDM_LINEAR"
         if linear and not _repeatable():
-            raise Unsupported("CCDM_LINEAR reads uninitialised memory, and this platform's malloc does not let us set it beforehand")
+            raise Unsupported(
+                "CCDM_LINEAR reads uninitialised memory, and this platform's malloc does not let us"
+                " set it beforehand"
+            )
         fcl = _fcl()
         request = fcl.ContinuousCollisionRequest(
-            ccd_motion_type=getattr(fcl.CCDMotionType, path), gjk_solver_type=getattr(fcl.GJKSolverType, self.solver),
-            ccd_solver_type=getattr(fcl.CCDSolverType, self.advancement), **self.limits())
+            ccd_motion_type=getattr(fcl.CCDMotionType, path),
+            gjk_solver_type=getattr(fcl.GJKSolverType, self.solver),
+            ccd_solver_type=getattr(fcl.CCDSolverType, self.advancement),
+            **self.limits(),
+        )
         legs = self.legs(query, 1 if path == "CCDM_TRANS" else _legs(query))
         n, fill = len(legs), HEAP[self.parameters["heap"]] if linear else 0
 
@@ -206,7 +231,9 @@ class _Continuous(Method):
         return ask
 
     def legs(self, query: Query, n: int) -> list[tuple]:
-        """(its start, both end poses, pairs of objects at their start poses) of each of n equal legs."""
+        """(its start, both end poses, pairs of objects at their start poses) of each of n equal
+        legs.
+        """
         fcl, shapes = _fcl(), (self.shapes(query.a), self.shapes(query.b))
         sides = ((query.motion, query.pose_a), (query.motion_b, query.pose_b))
         stops = [[_transform(m.pose_at(p, i / n)) for m, p in sides] for i in range(n + 1)]
@@ -222,7 +249,8 @@ def _legs(query: Query) -> int:
 
 
 class _DefaultRequest(_Continuous):
-    """ContinuousCollisionRequest() as it comes: conservative advancement, CCDM_TRANS, 10 iterations, toc_err 1e-4.
+    """ContinuousCollisionRequest() as it comes: conservative advancement, CCDM_TRANS, 10
+    iterations, toc_err 1e-4.
 
     CCDM_TRANS moves a body along a line and ignores its rotation, so `motion` is not declared: the
     request for it is CCDM_LINEAR (fcl-advancement-*, fcl-naive-*).
@@ -233,27 +261,32 @@ class _DefaultRequest(_Continuous):
 
 
 class FclCcdMesh(_Mesh, _DefaultRequest):
-    # Cubes of 2 passing through each other, head-on and turned: 37 of 40 missed. Known upstream (fcl 555, python-fcl 38).
+    # Cubes of 2 passing through each other, head-on and turned: 37 of 40 missed. Known upstream
+    # (fcl 555, python-fcl 38).
     name = "fcl-ccd-mesh"
     tolerance = Tolerance(step=1e-4)
-    guarantee = "conservative advancement, time within toc_err = 1e-4; translations only (CCDM_TRANS)"
+    guarantee = (
+        "conservative advancement, time within toc_err = 1e-4; translations only (CCDM_TRANS)"
+    )
 
 
 class FclCcdConvex(_Convex, _DefaultRequest):
     # Boxes straight through a plate: 17 of 250 missed with libccd, none with GST_INDEP, as below.
     name = "fcl-ccd-convex"
     tolerance = Tolerance(GJK, step=1e-4)
-    guarantee = "conservative advancement, time within toc_err = 1e-4; translations only (CCDM_TRANS)"
+    guarantee = (
+        "conservative advancement, time within toc_err = 1e-4; translations only (CCDM_TRANS)"
+    )
 
 
 class _Linear(_Continuous):
     """CCDM_LINEAR for motions, whose reference point FCL reads before anything has written it.
 
-    heap: the bytes that it finds there. "zero" is the body's origin, which FCL documents; "filled" is
-    HEAP's other byte. In a process without this parameter it is whatever was freed before. Both give
-    the answers of a process whose whole heap holds that byte, verdict for verdict and time for time.
-    Of the 2,789 sweeps of the standard run with up to 400 faces, fcl-advancement-convex path=trans misses
-    87 with "zero" and 253 with "filled", and calls 48 and 307 clear ones a hit.
+    heap: the bytes that it finds there. "zero" is the body's origin, which FCL documents; "filled"
+    is HEAP's other byte. In a process without this parameter it is whatever was freed before. Both
+    give the answers of a process whose whole heap holds that byte, verdict for verdict and time for
+    time. Of the 2,789 sweeps of the standard run with up to 400 faces, fcl-advancement-convex
+    path=trans misses 87 with "zero" and 253 with "filled", and calls 48 and 307 clear ones a hit.
     """
 
     configuration = "best effort"
@@ -299,17 +332,24 @@ class FclAdvancementMesh(Normalised, _Mesh, _Advancement):
 
 
 class _Naive(_Linear):
-    """The NAIVE mode: `iterations` samples at i / (iterations - 1), so late by up to one spacing and blind between them."""
+    """The NAIVE mode: `iterations` samples at i / (iterations - 1), so late by up to one spacing
+    and blind between them.
+    """
 
     parameters = {"iterations": 10, "heap": "zero"}
     allowed = {"iterations": (2, 2**31 - 1), "heap": tuple(HEAP)}  # the start and the end at least
     cheapest = {"iterations": 2}
     advancement = "CCDC_NAIVE"
-    guarantee = "discrete test at evenly spaced samples of FCL's own interpolation; blind between them"
+    guarantee = (
+        "discrete test at evenly spaced samples of FCL's own interpolation; blind between them"
+    )
 
     def limits(self) -> dict:
         # FCL samples min(num_max_iterations, ceil(1 / toc_err)) poses.
-        return {"num_max_iterations": self.parameters["iterations"], "toc_err": 0.5 / self.parameters["iterations"]}
+        return {
+            "num_max_iterations": self.parameters["iterations"],
+            "toc_err": 0.5 / self.parameters["iterations"],
+        }
 
     @property
     def time_error(self) -> float:
@@ -325,7 +365,8 @@ class FclNaiveMesh(Normalised, _Mesh, _Naive):
 
 
 def _fill_motions(fill: int) -> None:
-    """Leave two blocks of this byte where malloc will look first for the two InterpMotions of the next call (1 us).
+    """Leave two blocks of this byte where malloc will look first for the two InterpMotions of the
+    next call (1 us).
 
     glibc hands out the block of a size that was freed last.
     """
@@ -341,21 +382,36 @@ def _fill_motions(fill: int) -> None:
 def _libc():
     libc = ctypes.PyDLL(None)
     libc.malloc.restype, libc.malloc.argtypes = ctypes.c_void_p, [ctypes.c_size_t]
-    libc.memset.restype, libc.memset.argtypes = ctypes.c_void_p, [ctypes.c_void_p, ctypes.c_int, ctypes.c_size_t]
+    libc.memset.restype, libc.memset.argtypes = (
+        ctypes.c_void_p,
+        [
+            ctypes.c_void_p,
+            ctypes.c_int,
+            ctypes.c_size_t,
+        ],
+    )
     libc.free.restype, libc.free.argtypes = None, [ctypes.c_void_p]
     return libc
 
 
 @cache
 def _repeatable() -> bool:
-    """Does `_fill_motions` rule the answer here? A turning cube, with stale memory of ours and with zeroed memory."""
+    """Does `_fill_motions` rule the answer here? A turning cube, with stale memory of ours and with
+    zeroed memory.
+    """
     if sys.platform != "linux":
         return False
     fcl = _fcl()
-    request = fcl.ContinuousCollisionRequest(num_max_iterations=10, ccd_motion_type=fcl.CCDMotionType.CCDM_LINEAR,
-                                             ccd_solver_type=fcl.CCDSolverType.CCDC_NAIVE)
+    request = fcl.ContinuousCollisionRequest(
+        num_max_iterations=10,
+        ccd_motion_type=fcl.CCDMotionType.CCDM_LINEAR,
+        ccd_solver_type=fcl.CCDSolverType.CCDC_NAIVE,
+    )
     stop, at_b = fcl.Transform(np.array([0.8, 0, 0, 0.6]), np.array([5.0, 0, 0])), fcl.Transform()
-    a, b = fcl.CollisionObject(fcl.Box(2, 2, 2), fcl.Transform(np.array([-5.0, 0, 0]))), fcl.CollisionObject(fcl.Box(2, 2, 2), at_b)
+    a, b = (
+        fcl.CollisionObject(fcl.Box(2, 2, 2), fcl.Transform(np.array([-5.0, 0, 0]))),
+        fcl.CollisionObject(fcl.Box(2, 2, 2), at_b),
+    )
     times = []
     for fill in (HEAP["filled"], HEAP["zero"]):
         result = fcl.ContinuousCollisionResult()
@@ -369,6 +425,19 @@ def _transform(pose: Pose):
     return _fcl().Transform(pose.rotation, pose.position)
 
 
-METHODS = [FclConvex, FclConvexExact, FclConvexExactSubsteps, FclConvexIndep, FclMesh, FclDistance, FclConvexSubsteps, FclMeshSubsteps,
-           FclCcdMesh, FclCcdConvex,
-           FclAdvancementConvex, FclAdvancementMesh, FclNaiveConvex, FclNaiveMesh]
+METHODS = [
+    FclConvex,
+    FclConvexExact,
+    FclConvexExactSubsteps,
+    FclConvexIndep,
+    FclMesh,
+    FclDistance,
+    FclConvexSubsteps,
+    FclMeshSubsteps,
+    FclCcdMesh,
+    FclCcdConvex,
+    FclAdvancementConvex,
+    FclAdvancementMesh,
+    FclNaiveConvex,
+    FclNaiveMesh,
+]

@@ -26,8 +26,8 @@ def stated(query: Query, movers: int, about: bool) -> Query:
 def one_mover(query: Query) -> Query:
     """The same question with B at rest: A gets the relative motion, in double rounding.
 
-    That is exact in the numbers where at most one body turns. If that is B, the two are exchanged: the
-    answer is the same. Unsupported where both turn.
+    That is exact in the numbers where at most one body turns. If that is B, the two are exchanged:
+    the answer is the same. Unsupported where both turn.
     """
     if query.motion.angle and query.motion_b.angle:
         raise Unsupported("both bodies turn, and this method knows one moving body")
@@ -40,7 +40,9 @@ def one_mover(query: Query) -> Query:
 
 
 def about_origins(query: Query) -> Query:
-    """The same question with each body in a frame whose origin is the point about which it turns."""
+    """The same question with each body in a frame whose origin is the point about which it
+    turns.
+    """
     if not (query.motion.about.any() or query.motion_b.about.any()):
         return query
     a, pose_a, motion = _about_origin(query.a, query.pose_a, query.motion)

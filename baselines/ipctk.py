@@ -1,17 +1,18 @@
-"""IPC Toolkit: exact triangle intersection, and continuous collision of vertices on straight lines (Tight-Inclusion).
+"""IPC Toolkit: exact triangle intersection, and continuous collision of vertices on straight lines
+(Tight-Inclusion).
 
 Bodies of every kind are triangle soups, so containment is not seen. The continuous test is
 documented for vertices on straight lines. With n = 1 a turn is refused; with n > 1 it is asked as
 n chords, and the answer is about the chords.
-The toolkit assumes that a step starts free of intersections, and sees nothing where it does not; the start is tested first, as its
-documentation asks. Touching counts as a hit.
+The toolkit assumes that a step starts free of intersections, and sees nothing where it does not;
+the start is tested first, as its documentation asks. Touching counts as a hit.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from math import inf
-from typing import Callable
 
 import numpy as np
 
@@ -55,9 +56,11 @@ class IpctkSubsteps(Substeps, Ipctk):
 
 
 class IpctkCcd(Method):
-    """compute_collision_free_stepsize with TightInclusionCCD() as it comes: conservative_rescaling 0.8, which stops early.
+    """compute_collision_free_stepsize with TightInclusionCCD() as it comes: conservative_rescaling
+    0.8, which stops early.
 
-    Slow where it hits: cubes of 12 faces head-on take 0.9 s, and more than a minute where their edges meet in parallel.
+    Slow where it hits: cubes of 12 faces head-on take 0.9 s, and more than a minute where their
+    edges meet in parallel.
     """
 
     name = "ipctk-ccd"
@@ -69,7 +72,10 @@ class IpctkCcd(Method):
     movers, about = 2, True
     gives_time = True
     tolerance = Tolerance(1e-6, sides="alarms")  # of its inclusion of the distance
-    guarantee = "never misses on straight vertex paths, never late (interval inclusion, tolerance 1e-6); surfaces only"
+    guarantee = (
+        "never misses on straight vertex paths, never late (interval inclusion, tolerance 1e-6);"
+        " surfaces only"
+    )
     parameters = {"n": 1, "max_iterations": 10_000_000}
     allowed = {"n": (1, inf), "max_iterations": (1, 2**31 - 1)}
     cheapest = {"n": 2}  # with 1 it answers no motion; a translation is one chord whatever n is
@@ -85,7 +91,12 @@ class IpctkCcd(Method):
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
         ipctk = _ipctk()
-        mesh, place, narrow, broad = _mesh(query), _placer(query), self.narrow_phase(ipctk), ipctk.SweepAndPrune()
+        mesh, place, narrow, broad = (
+            _mesh(query),
+            _placer(query),
+            self.narrow_phase(ipctk),
+            ipctk.SweepAndPrune(),
+        )
         turns = query.motion.angle or query.motion_b.angle
         n = self.parameters["n"] if turns else 1  # a translation is one chord
         sides = ((query.motion, query.pose_a), (query.motion_b, query.pose_b))
@@ -95,7 +106,9 @@ class IpctkCcd(Method):
             if ipctk.has_intersections(mesh, stops[0]):
                 return Verdict(True, 0.0)
             for i in range(n):
-                step = ipctk.compute_collision_free_stepsize(mesh, stops[i], stops[i + 1], 0.0, broad, narrow)
+                step = ipctk.compute_collision_free_stepsize(
+                    mesh, stops[i], stops[i + 1], 0.0, broad, narrow
+                )
                 if step < 1:
                     return Verdict(True, (i + step) / n)
             return Verdict(False)
@@ -106,9 +119,10 @@ class IpctkCcd(Method):
 class IpctkCcdExact(Normalised, IpctkCcd):
     """conservative_rescaling = 1: the time as found. 1 ms on cubes head-on, within 1e-7.
 
-    Where edges meet in parallel the search does not converge and ends at max_iterations, with a time that is early: aligned cubes at 0.3
-    are 3e-3 early after 30 ms (1e4 iterations), 2e-4 after 0.4 s (1e5), 2e-4 after 3 s (1e6); the default is 1e7. A start within 1e-8 of
-    touching can take minutes whatever is set: the search is repeated until the time is not 0.
+    Where edges meet in parallel the search does not converge and ends at max_iterations, with a
+    time that is early: aligned cubes at 0.3 are 3e-3 early after 30 ms (1e4 iterations), 2e-4 after
+    0.4 s (1e5), 2e-4 after 3 s (1e6); the default is 1e7. A start within 1e-8 of touching can take
+    minutes whatever is set: the search is repeated until the time is not 0.
 
     n = 256 is the smallest power of two with which the chords of a full turn stay within CHORD of
     the radius from the arc. Of 120 hits and 120 clears with a turn, drawn from the standard run,
@@ -121,7 +135,9 @@ class IpctkCcdExact(Normalised, IpctkCcd):
     parameters = {"n": 256, "max_iterations": 100_000}
 
     def narrow_phase(self, ipctk):
-        return ipctk.TightInclusionCCD(max_iterations=self.parameters["max_iterations"], conservative_rescaling=1.0)
+        return ipctk.TightInclusionCCD(
+            max_iterations=self.parameters["max_iterations"], conservative_rescaling=1.0
+        )
 
 
 def _mesh(query: Query):
@@ -130,7 +146,9 @@ def _mesh(query: Query):
     n, m = len(query.a.vertices), len(query.b.vertices)
     faces = np.concatenate([query.a.faces, query.b.faces + n]).astype(np.int32)
     vertices = np.concatenate([query.a.vertices, query.b.vertices])
-    mesh = ipctk.CollisionMesh(np.asfortranarray(vertices), np.asfortranarray(ipctk.edges(faces)), np.asfortranarray(faces))
+    mesh = ipctk.CollisionMesh(
+        np.asfortranarray(vertices), np.asfortranarray(ipctk.edges(faces)), np.asfortranarray(faces)
+    )
     mesh.can_collide = ipctk.make_vertex_patches_filter(np.repeat(np.int32([0, 1]), [n, m]))
     return mesh
 

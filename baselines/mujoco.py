@@ -1,15 +1,16 @@
-"""MuJoCo: signed distance of convex geoms at one pose or at substeps, and the sweep of its speculative contacts.
+"""MuJoCo: signed distance of convex geoms at one pose or at substeps, and the sweep of its
+speculative contacts.
 
-A mesh geom is its convex hull, so closed meshes are refused, but for the -coacd methods, which decompose them. A union is one geom per
-piece, all pairs asked in a plain loop.
-MuJoCo stores mesh vertices as float32 after moving them to their inertia frame: an error of 1e-7 of the size that rounding the
-input does not remove, and that is not hidden here. It rejects flat meshes.
+A mesh geom is its convex hull, so closed meshes are refused, but for the -coacd methods, which
+decompose them. A union is one geom per piece, all pairs asked in a plain loop. MuJoCo stores mesh
+vertices as float32 after moving them to their inertia frame: an error of 1e-7 of the size that
+rounding the input does not remove, and that is not hidden here. It rejects flat meshes.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import product
-from typing import Callable
 
 import numpy as np
 
@@ -27,7 +28,9 @@ def _mujoco():
     try:
         import mujoco
     except ImportError as error:
-        raise MissingEngine("mujoco is not installed; install it with: pip install mujoco") from error
+        raise MissingEngine(
+            "mujoco is not installed; install it with: pip install mujoco"
+        ) from error
     return mujoco
 
 
@@ -42,7 +45,9 @@ class Mujoco(Discrete):
     solid = True
     places_b = True
     tolerance = Tolerance(1e-6)  # ccd_tolerance
-    guarantee = "GJK/EPA in doubles on vertices stored as float32; ccd_tolerance 1e-6, 35 iterations"
+    guarantee = (
+        "GJK/EPA in doubles on vertices stored as float32; ccd_tolerance 1e-6, 35 iterations"
+    )
 
     def options(self, mujoco, spec) -> None:
         """Set what this configuration changes in the model."""
@@ -76,11 +81,10 @@ class MujocoExact(Normalised, Mujoco):
     # Bodies of 1e-6, and of 1e6 beside 1, are refused by the compiler in other units.
     name = "mujoco-exact"
     configuration = "best effort"
-    guarantee = "GJK/EPA in doubles on vertices stored as float32; ccd_tolerance 1e-12, 1000 iterations"
-
-    @property
-    def tolerance(self) -> Tolerance:
-        return Tolerance(relative=1e-12 / self.length)
+    guarantee = (
+        "GJK/EPA in doubles on vertices stored as float32; ccd_tolerance 1e-12, 1000 iterations"
+    )
+    own_tolerance = Tolerance(1e-12)
 
     def options(self, mujoco, spec) -> None:
         spec.option.ccd_tolerance = 1e-12
@@ -108,7 +112,10 @@ class MujocoExactSubsteps(Substeps, MujocoExact):
 
 class MujocoCoacd(Decomposed, MujocoExact):
     name = "mujoco-coacd"
-    guarantee = "mujoco-exact on the pieces of CoACD at threshold 0.05, which are another body than the mesh"
+    guarantee = (
+        "mujoco-exact on the pieces of CoACD at threshold 0.05, which are another body than the"
+        " mesh"
+    )
 
 
 class MujocoCoacdSubsteps(Substeps, MujocoCoacd):
@@ -117,14 +124,17 @@ class MujocoCoacdSubsteps(Substeps, MujocoCoacd):
 
 
 class MujocoSpeculative(Normalised, Method):
-    """The sweep of mjENBL_SPECULATIVE over one step, with the time of impact recovered from the contact it makes.
+    """The sweep of mjENBL_SPECULATIVE over one step, with the time of impact recovered from the
+    contact it makes.
 
-    MuJoCo sweeps only geoms that travel farther than their smallest half-extent; slower ones are left to the discrete test of the end
-    pose, as in a stepping loop, and get time 1. The time is not exposed: a speculative contact is given the distance at which the
-    solver would stop the body on the surface. With stiffness k and damping b per step that is dist = -(1 - t - b) / k v, so two
-    settings of solref, b = 0 and b = 1, give (t - 1) v and t v, whose quotient holds t alone. The impedance must be constant (solimp)
-    for b to be what was set. Its advancement stops at 2 % of the start distance, so the time is early by that share of the gap.
-    A geom whose centre is not the body's origin turns on an arc that MuJoCo takes for a chord.
+    MuJoCo sweeps only geoms that travel farther than their smallest half-extent; slower ones are
+    left to the discrete test of the end pose, as in a stepping loop, and get time 1. The time is
+    not exposed: a speculative contact is given the distance at which the solver would stop the body
+    on the surface. With stiffness k and damping b per step that is dist = -(1 - t - b) / k v, so
+    two settings of solref, b = 0 and b = 1, give (t - 1) v and t v, whose quotient holds t alone.
+    The impedance must be constant (solimp) for b to be what was set. Its advancement stops at 2 %
+    of the start distance, so the time is early by that share of the gap. A geom whose centre is not
+    the body's origin turns on an arc that MuJoCo takes for a chord.
     """
 
     name = "mujoco-speculative"
@@ -135,8 +145,12 @@ class MujocoSpeculative(Normalised, Method):
     bodies = frozenset({"convex", "union"})
     solid = True
     gives_time = True
-    tolerance = Tolerance(step=0.02, sides="alarms")  # of the start distance, which the path is no shorter than
-    guarantee = "conservative advancement to 2 % of the start distance: hits closer than that are called early; slow movers at the end only"
+    # of the start distance, which the path is no shorter than
+    tolerance = Tolerance(step=0.02, sides="alarms")
+    guarantee = (
+        "conservative advancement to 2 % of the start distance: hits closer than that are called"
+        " early; slow movers at the end only"
+    )
 
     IMPEDANCE = 0.9999  # the largest MuJoCo takes
 
@@ -152,12 +166,17 @@ class MujocoSpeculative(Normalised, Method):
         moving = spec.worldbody.add_body(name="a")
         moving.add_freejoint()
         _add_geoms(mujoco, spec, moving, "a", query.a, **contact)
-        _add_geoms(mujoco, spec, spec.worldbody.add_body(name="b", mocap=True), "b", query.b, **contact)
+        _add_geoms(
+            mujoco, spec, spec.worldbody.add_body(name="b", mocap=True), "b", query.b, **contact
+        )
         model, data = _compile(mujoco, spec)
         data.mocap_pos[0], data.mocap_quat[0] = _place(query.pose_b)
         start = np.concatenate(_place(query.pose_a))
         end = np.concatenate(_place(query.motion.pose_at(query.pose_a, 1)))
-        velocity = np.concatenate([query.motion.displacement, query.pose_a.rotation.T @ _turn(query)])  # angular: in A's frame
+        # angular: in A's frame
+        velocity = np.concatenate(
+            [query.motion.displacement, query.pose_a.rotation.T @ _turn(query)]
+        )
         pairs = _pairs(query.a, query.b)
 
         def detect(damping: float) -> np.ndarray:
@@ -173,13 +192,17 @@ class MujocoSpeculative(Normalised, Method):
             if undamped.size:
                 damped = detect(1)
                 speculative = damped != undamped
-                if not speculative.all():  # a real contact does not depend on solref: in touch at the start
+                if (
+                    not speculative.all()
+                ):  # a real contact does not depend on solref: in touch at the start
                     return Verdict(True, 0.0)
                 times = damped / (damped - undamped)
                 return Verdict(True, float(np.clip(times.min(), 0, 1)))
             data.qpos[:] = end
             mujoco.mj_kinematics(model, data)
-            hit = any(mujoco.mj_geomDistance(model, data, a, b, DISTMAX, None) < 0 for a, b in pairs)
+            hit = any(
+                mujoco.mj_geomDistance(model, data, a, b, DISTMAX, None) < 0 for a, b in pairs
+            )
             return Verdict(True, 1.0) if hit else Verdict(False)
 
         return ask
@@ -188,7 +211,11 @@ class MujocoSpeculative(Normalised, Method):
 def _add_geoms(mujoco, spec, owner, side: str, body: Body, **geom) -> None:
     for i, piece in enumerate(body.pieces):
         name = f"{side}{i}"
-        spec.add_mesh(name=name, uservert=piece.vertices.ravel().tolist(), userface=piece.faces.ravel().tolist())
+        spec.add_mesh(
+            name=name,
+            uservert=piece.vertices.ravel().tolist(),
+            userface=piece.faces.ravel().tolist(),
+        )
         owner.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, **geom)
 
 
@@ -196,7 +223,9 @@ def _compile(mujoco, spec):
     try:
         model = spec.compile()
     except ValueError as error:
-        raise Unsupported(f"mujoco compiles no geom of these bodies: {str(error).strip().splitlines()[0]}") from error
+        raise Unsupported(
+            f"mujoco compiles no geom of these bodies: {str(error).strip().splitlines()[0]}"
+        ) from error
     return model, mujoco.MjData(model)
 
 
@@ -214,4 +243,13 @@ def _turn(query: Query) -> np.ndarray:
     return motion.angle * motion.axis / np.linalg.norm(motion.axis) if motion.angle else np.zeros(3)
 
 
-METHODS = [Mujoco, MujocoExact, MujocoLibccd, MujocoSubsteps, MujocoExactSubsteps, MujocoCoacd, MujocoCoacdSubsteps, MujocoSpeculative]
+METHODS = [
+    Mujoco,
+    MujocoExact,
+    MujocoLibccd,
+    MujocoSubsteps,
+    MujocoExactSubsteps,
+    MujocoCoacd,
+    MujocoCoacdSubsteps,
+    MujocoSpeculative,
+]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import inf, isfinite
-from typing import Any, Sequence
+from typing import Any
 
 #: (least, most) of a number, or the words that a text may be
 Allowed = Sequence[Any]

@@ -1,19 +1,21 @@
-"""parry in float64 through py-parry3d: hulls and triangle meshes, at one pose or at substeps in one batched call.
+"""parry in float64 through py-parry3d: hulls and triangle meshes, at one pose or at substeps in one
+batched call.
 
-A union is parry's own group of hulls, on the mesh side the soup of the pieces' faces. One thread only: what is compared is the
-algorithm, and with more its "first" pose of a batch need not be the first.
+A union is parry's own group of hulls, on the mesh side the soup of the pieces' faces. One thread
+only: what is compared is the algorithm, and with more its "first" pose of a batch need not be the
+first.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
-from typing import Callable
 
 import numpy as np
 
 from ofg import Body, Pose, Query
 
-from .contract import MissingEngine, Unsupported, Verdict
+from .contract import MissingEngine, Tolerance, Unsupported, Verdict
 from .sampling import Discrete, Substeps
 from .units import Normalised
 
@@ -25,24 +27,32 @@ def _parry():
     try:
         from py_parry3d import _internal
     except ImportError as error:
-        raise MissingEngine("py-parry3d is not installed; install it with: pip install py-parry3d") from error
-    _internal.set_num_threads(1)  # has to come before anything else is asked, the number of threads included
+        raise MissingEngine(
+            "py-parry3d is not installed; install it with: pip install py-parry3d"
+        ) from error
+    # has to come before anything else is asked, the number of threads included
+    _internal.set_num_threads(1)
     return _internal
 
 
 class Parry(Discrete):
-    # Hulls are called a hit at gaps of 1e-9 and less on some rotated cubes; axis-aligned ones are right down to 1e-12.
+    # Hulls are called a hit at gaps of 1e-9 and less on some rotated cubes; axis-aligned ones are
+    # right down to 1e-12.
     name = "parry"
     engine, imports = "py-parry3d", "py_parry3d"
     configuration = "default"
     bodies = frozenset({"convex", "union"})
     solid = True
     places_b = True
+    tolerance = Tolerance(10 * 2.0**-52)  # eps_tol() of its GJK: ten machine epsilons
     guarantee = "GJK in doubles"
 
     def shapes(self, body: Body) -> list:
         try:
-            return [_parry().ConvexHull.from_mesh(np.array(p.vertices), p.faces.astype(np.uint32)) for p in body.pieces]
+            return [
+                _parry().ConvexHull.from_mesh(np.array(p.vertices), p.faces.astype(np.uint32))
+                for p in body.pieces
+            ]
         except ValueError as error:
             raise Unsupported(f"parry makes no hull of body '{body.name}': {error}") from error
 

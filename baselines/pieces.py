@@ -1,9 +1,11 @@
-"""Concave meshes for engines that know convex shapes only: the mesh is decomposed by CoACD first, as their documentation advises."""
+"""Concave meshes for engines that know convex shapes only: the mesh is decomposed by CoACD first,
+as their documentation advises.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Callable
 
 import ofg
 from ofg import Body, Query
@@ -12,9 +14,11 @@ from .contract import Unsupported, Verdict
 
 
 class Decomposed:
-    """Put this before a method of unions: `class BulletCoacd(Decomposed, Bullet)`. Other bodies pass as they are.
+    """Put this before a method of unions: `class BulletCoacd(Decomposed, Bullet)`. Other bodies
+    pass as they are.
 
-    The pieces are another body than the mesh, by CoACD's threshold: what a verdict is worth near the surface is the decomposition's doing.
+    The pieces are another body than the mesh, by CoACD's threshold: what a verdict is worth near
+    the surface is the decomposition's doing.
     """
 
     bodies = frozenset({"convex", "union", "mesh"})

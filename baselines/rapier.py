@@ -1,29 +1,35 @@
-"""Rapier 3D (parry in float32): overlap, and linear and nonlinear shape casts, on hulls and on triangle meshes.
+"""Rapier 3D (parry in float32): overlap, and linear and nonlinear shape casts, on hulls and on
+triangle meshes.
 
-A union is Rapier's own compound shape on the hull side, the soup of the pieces' faces on the mesh side.
-All numbers are float32 inside: overlaps are right to about 1e-6 of the size on boxes and meshes, hulls call gaps below 1e-4 hits.
-Rapier has no setting that makes it more exact; what can be done is to choose units and origin, and to cast a turn in legs.
+A union is Rapier's own compound shape on the hull side, the soup of the pieces' faces on the mesh
+side. All numbers are float32 inside: overlaps are right to about 1e-6 of the size on boxes and
+meshes, hulls call gaps below 1e-4 hits. Rapier has no setting that makes it more exact; what can be
+done is to choose units and origin, and to cast a turn in legs.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Callable
+from collections.abc import Callable
 
 import numpy as np
 
 from ofg import Body, Pose, Query
 
-from .contract import Method, MissingEngine, Verdict
+from .contract import Method, MissingEngine, Tolerance, Verdict
 from .sampling import Discrete, Substeps
 from .units import Normalised
+
+GJK = Tolerance(10 * 2.0**-23)  #: eps_tol() of its GJK: ten machine epsilons of float32
 
 
 def _rapier():
     try:
         import rapier3d
     except ImportError as error:
-        raise MissingEngine("rapier3d is not installed; install it with: pip install rapier3d") from error
+        raise MissingEngine(
+            "rapier3d is not installed; install it with: pip install rapier3d"
+        ) from error
     return rapier3d
 
 
@@ -35,8 +41,15 @@ class _Hull:
 
     def shape(self, body: Body):
         rapier = _rapier()
-        hulls = [rapier.SharedShape.convex_mesh(np.array(p.vertices), np.array(p.faces)) for p in body.pieces]
-        return hulls[0] if body.kind == "convex" else rapier.SharedShape.compound([(_place(Pose()), hull) for hull in hulls])
+        hulls = [
+            rapier.SharedShape.convex_mesh(np.array(p.vertices), np.array(p.faces))
+            for p in body.pieces
+        ]
+        return (
+            hulls[0]
+            if body.kind == "convex"
+            else rapier.SharedShape.compound([(_place(Pose()), hull) for hull in hulls])
+        )
 
 
 class _Mesh:
@@ -53,6 +66,7 @@ class _Overlap(Discrete):
     """QueryPipeline.intersect_shape of A against a world that holds B."""
 
     configuration = "default"
+    tolerance = GJK
 
     def build(self, query: Query):
         shape, world = self.shape(query.a), _world(self.shape(query.b), query.pose_b)
@@ -103,15 +117,17 @@ class RapierMeshSubsteps(Substeps, RapierMesh):
 
 
 class _Cast(Method):
-    """cast_shape for translations, cast_shape_nonlinear for motions. A motion is cast in `legs` equal parts of the step.
+    """cast_shape for translations, cast_shape_nonlinear for motions. A motion is cast in `legs`
+    equal parts of the step.
 
-    A nonlinear cast often ends with the status FAILED and a time that is right (0.27650 for cubes that meet there); it counts as a
-    hit, as in Rapier's own motion clamping.
+    A nonlinear cast often ends with the status FAILED and a time that is right (0.27650 for cubes
+    that meet there); it counts as a hit, as in Rapier's own motion clamping.
     """
 
     questions = frozenset({"translation", "motion"})
     gives_time = True
     configuration = "default"
+    tolerance = GJK
     legs = 1
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
@@ -130,10 +146,24 @@ class _Cast(Method):
 
             return ask
 
-        turn = (motion.angle * motion.axis / np.linalg.norm(motion.axis)).tolist() if motion.angle else [0.0, 0.0, 0.0]
+        turn = (
+            (motion.angle * motion.axis / np.linalg.norm(motion.axis)).tolist()
+            if motion.angle
+            else [0.0, 0.0, 0.0]
+        )
         n = self.legs
-        paths = [(i / n, rapier.NonlinearRigidMotion(start=_place(motion.pose_at(query.pose_a, i / n)), local_center=(0, 0, 0),
-                                                     linvel=velocity, angvel=turn)) for i in range(n)]
+        paths = [
+            (
+                i / n,
+                rapier.NonlinearRigidMotion(
+                    start=_place(motion.pose_at(query.pose_a, i / n)),
+                    local_center=(0, 0, 0),
+                    linvel=velocity,
+                    angvel=turn,
+                ),
+            )
+            for i in range(n)
+        ]
 
         def ask_nonlinear(_keep=world) -> Verdict:
             for start, path in paths:
@@ -151,13 +181,15 @@ class RapierCast(_Hull, _Cast):
 
 
 class RapierCastMesh(_Mesh, _Cast):
-    # A nonlinear cast of two meshes costs 2.3 ms for cubes of 12 faces, 64 ms and more for real ones.
+    # A nonlinear cast of two meshes costs 2.3 ms for cubes of 12 faces, 64 ms and more for real
+    # ones.
     name = "rapier-cast-mesh"
     guarantee = "conservative advancement in float32 per triangle pair; surfaces only"
 
 
 class _CastInLegs(_Cast):
-    # One nonlinear cast missed 24 of 42 hits of bodies that spin by half a turn beside another; 8 legs, or 32, missed none of them.
+    # One nonlinear cast missed 24 of 42 hits of bodies that spin by half a turn beside another; 8
+    # legs, or 32, missed none of them.
     configuration = "best effort"
     parameters = {"legs": 8}
     allowed = {"legs": (1, math.inf)}
@@ -190,4 +222,14 @@ def _world(shape, pose: Pose):
     return world
 
 
-METHODS = [Rapier, RapierExact, RapierExactSubsteps, RapierMesh, RapierSubsteps, RapierMeshSubsteps, RapierCast, RapierCastMesh, RapierCastLegs]
+METHODS = [
+    Rapier,
+    RapierExact,
+    RapierExactSubsteps,
+    RapierMesh,
+    RapierSubsteps,
+    RapierMeshSubsteps,
+    RapierCast,
+    RapierCastMesh,
+    RapierCastLegs,
+]

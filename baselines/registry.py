@@ -19,15 +19,21 @@ from .native import library
 
 
 class UnknownMethod(ValueError):
-    """No method has this name, or its specification cannot be read; the message says what can be done."""
+    """No method has this name, or its specification cannot be read; the message says what can be
+    done.
+    """
 
 
-GROUP = "ofg.methods"  # entry points of installed packages that bring methods: a class, or a list of them
+GROUP = (  # entry points of installed packages that bring methods: a class, or a list of them
+    "ofg.methods"
+)
 
 
 @cache
 def methods() -> dict[str, type[Method]]:
-    """name -> class of every method in `baselines/` and of installed packages, by name. Imports no engine of `baselines/`."""
+    """name -> class of every method in `baselines/` and of installed packages, by name. Imports no
+    engine of `baselines/`.
+    """
     import baselines
 
     found: dict[str, type[Method]] = {}
@@ -39,29 +45,43 @@ def methods() -> dict[str, type[Method]]:
 
 
 def load_file(path) -> dict[str, type[Method]]:
-    """The methods of a reader's own Python file, which ends with METHODS = [Class, ...]; they join `methods()`.
+    """The methods of a reader's own Python file, which ends with METHODS = [Class, ...]; they join
+    `methods()`.
 
     ValueError if the file does not exist or declares none.
     """
     path = Path(path).resolve()
-    module = run_file(path, f"Method file {path.name}", f"baselines_file_{path.stem}", "METHODS = [Class, ...]")
+    module = run_file(
+        path, f"Method file {path.name}", f"baselines_file_{path.stem}", "METHODS = [Class, ...]"
+    )
     found: dict[str, type[Method]] = {}
     _collect(module, found)
     if not found:
-        raise ValueError(f"Method file {path.name} declares no method; end it with METHODS = [Class, ...], where each Class is a "
-                         "subclass of baselines.contract.Method.")
+        raise ValueError(
+            f"Method file {path.name} declares no method; end it with METHODS = [Class, ...], where"
+            " each Class is a subclass of baselines.contract.Method."
+        )
     known = methods()
     for name in found:
-        if name in known and not getattr(known[name], "__module__", "").startswith("baselines_file_"):
-            raise ValueError(f"Method file {path.name}: the name '{name}' is taken by {known[name].__module__}; choose another.")
+        if name in known and not getattr(known[name], "__module__", "").startswith(
+            "baselines_file_"
+        ):
+            raise ValueError(
+                f"Method file {path.name}: the name '{name}' is taken by {known[name].__module__};"
+                " choose another."
+            )
     known.update(found)
     return found
 
 
 def run_file(path: Path, what: str, name: str, defines: str) -> ModuleType:
-    """The module called `name` that a reader's own Python file makes. ValueError, which begins with `what`, if it is not there or no Python file."""
+    """The module called `name` that a reader's own Python file makes. ValueError, which begins with
+    `what`, if it is not there or no Python file.
+    """
     if not path.is_file():
-        raise ValueError(f"{what} does not exist; give the path of a Python file that defines {defines}.")
+        raise ValueError(
+            f"{what} does not exist; give the path of a Python file that defines {defines}."
+        )
     spec = importlib.util.spec_from_file_location(name, path)
     if spec is None:
         raise ValueError(f"{what} is not a Python file; its name must end in .py.")
@@ -71,7 +91,8 @@ def run_file(path: Path, what: str, name: str, defines: str) -> ModuleType:
 
 
 def make(spec: str) -> list[Method]:
-    """'ofg k=4,8 toi=velocity' -> the configurations it names: commas give several, typed by the parameter's default.
+    """'ofg k=4,8 toi=velocity' -> the configurations it names: commas give several, typed by the
+    parameter's default.
 
     UnknownMethod with the closest names; MissingEngine if the method's engine is not installed.
     """
@@ -81,23 +102,43 @@ def make(spec: str) -> list[Method]:
     for word in words:
         key, equals, values = word.partition("=")
         if not equals or not values:
-            raise UnknownMethod(f"Method specification '{spec}': '{word}' is not of the form parameter=value or parameter=value,value.")
+            raise UnknownMethod(
+                f"Method specification '{spec}': '{word}' is not of the form parameter=value or"
+                " parameter=value,value."
+            )
         if key not in cls.parameters:
-            known = ", ".join(f"{k} (default {v})" for k, v in cls.parameters.items()) or "no parameter"
-            raise UnknownMethod(f"Method specification '{spec}': '{name}' has no parameter '{key}'; it has {known}.")
-        choices[key] = [inf if value == "inf" and key in cls.unlimited else _typed(value, cls.parameters[key], key, spec) for value in values.split(",")]
+            known = (
+                ", ".join(f"{k} (default {v})" for k, v in cls.parameters.items()) or "no parameter"
+            )
+            raise UnknownMethod(
+                f"Method specification '{spec}': '{name}' has no parameter '{key}'; it has {known}."
+            )
+        choices[key] = [
+            (
+                inf
+                if value == "inf" and key in cls.unlimited
+                else _typed(value, cls.parameters[key], key, spec)
+            )
+            for value in values.split(",")
+        ]
     return [cls(**dict(zip(choices, combination))) for combination in product(*choices.values())]
 
 
 def available(cls: type[Method]) -> str | None:
-    """None if the method's engine can be imported here or is built, else the reason and the remedy."""
+    """None if the method's engine can be imported here or is built, else the reason and the
+    remedy.
+    """
     if cls.engine in library.ENGINES:
         return library.missing(cls.engine)
     try:
         found = importlib.util.find_spec(cls.imports) is not None
     except (ImportError, ValueError):
         found = False
-    return None if found else f"{cls.engine} is not installed; install it with: pip install {cls.engine}"
+    return (
+        None
+        if found
+        else f"{cls.engine} is not installed; install it with: pip install {cls.engine}"
+    )
 
 
 def version(cls: type[Method]) -> str:
@@ -115,10 +156,16 @@ def _entered(entry) -> list[type[Method]]:
     try:
         loaded = entry.load()
     except Exception as error:
-        raise ValueError(f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded ({type(error).__name__}: {error}); mend or uninstall its package.") from error
+        raise ValueError(
+            f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded"
+            f" ({type(error).__name__}: {error}); mend or uninstall its package."
+        ) from error
     found = list(loaded) if isinstance(loaded, (list, tuple)) else [loaded]
     if not found or not all(isinstance(cls, type) and issubclass(cls, Method) for cls in found):
-        raise ValueError(f"The entry point '{entry.name}' of the group {GROUP} names {loaded!r}; it must name a subclass of baselines.contract.Method or a list of them.")
+        raise ValueError(
+            f"The entry point '{entry.name}' of the group {GROUP} names {loaded!r}; it must name a"
+            " subclass of baselines.contract.Method or a list of them."
+        )
     return found
 
 
@@ -131,7 +178,10 @@ def _add(classes, found: dict[str, type[Method]]) -> None:
         if wrong := declaration.fault(cls):
             raise ValueError(f"The methods of {_file(cls)}: {wrong}")
         if cls.name in found:
-            raise ValueError(f"Two methods are named '{cls.name}': {found[cls.name].__module__} and {cls.__module__}; rename one.")
+            raise ValueError(
+                f"Two methods are named '{cls.name}': {found[cls.name].__module__} and"
+                f" {cls.__module__}; rename one."
+            )
         found[cls.name] = cls
 
 
@@ -146,8 +196,10 @@ def _find(name: str) -> type[Method]:
         return known[name]
     close = difflib.get_close_matches(name, known, n=3, cutoff=0.4)
     closest = f" Closest: {', '.join(close)}." if close else ""
-    raise UnknownMethod(f"No method is named '{name}'.{closest} `ofg-bench list` prints all {len(known)}; a method "
-                        "of your own is given by its file.")
+    raise UnknownMethod(
+        f"No method is named '{name}'.{closest} `ofg-bench list` prints all {len(known)}; a method "
+        "of your own is given by its file."
+    )
 
 
 def _typed(text: str, default, key: str, spec: str):
@@ -161,4 +213,7 @@ def _typed(text: str, default, key: str, spec: str):
             return type(default)(text)
         except ValueError:
             pass
-    raise UnknownMethod(f"Method specification '{spec}': {key}={text} is not of type {type(default).__name__} (the default is {default}).")
+    raise UnknownMethod(
+        f"Method specification '{spec}': {key}={text} is not of type {type(default).__name__} (the"
+        f" default is {default})."
+    )

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Callable
 from math import inf
-from typing import Any, Callable, ClassVar
+from typing import Any, ClassVar
 
 from ofg import Pose, Query
 
@@ -20,13 +21,16 @@ class Discrete(Method):
     """An engine that answers `overlap` at one pose. Subclasses write `build`."""
 
     questions = frozenset({"overlap"})
-    #: whether `place` takes B's pose as its second argument; it gets it where B moves. If not, B stays
+    #: whether `place` takes B's pose as its second argument; it gets it where B moves. If not, B
+    #: stays
     #: at query.pose_b, and A is placed as B would see it
     places_b: ClassVar[bool] = False
 
     @abstractmethod
     def build(self, query: Query) -> tuple[Place, Test]:
-        """Both bodies in the engine's form, B at query.pose_b unless `place` is told another pose."""
+        """Both bodies in the engine's form, B at query.pose_b unless `place` is told another
+        pose.
+        """
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
@@ -46,11 +50,13 @@ class Discrete(Method):
 
 
 class Substeps(Discrete):
-    """The sweep as the users of a discrete engine run it: the overlap test at t = i/n for i = 1 .. n, first hit wins.
+    """The sweep as the users of a discrete engine run it: the overlap test at t = i/n for i = 1 ..
+    n, first hit wins.
 
-    The start pose is not tested: in a stepping loop it was the end pose of the step before. n = 1 is the end pose only. The time
-    reported is that of the first sampled hit, so it is late by up to 1/n and never early. Put this class before the engine's
-    Discrete one: `class BoxSubsteps(Substeps, Box)`.
+    The start pose is not tested: in a stepping loop it was the end pose of the step before. n = 1
+    is the end pose only. The time reported is that of the first sampled hit, so it is late by up to
+    1/n and never early. Put this class before the engine's Discrete one: `class
+    BoxSubsteps(Substeps, Box)`.
     """
 
     questions = frozenset({"translation", "motion"})

@@ -1,4 +1,6 @@
-"""How far from the truth an engine says that an answer may be: declared by each method, credited to each by one rule."""
+"""How far from the truth an engine says that an answer may be: declared by each method, credited to
+each by one rule.
+"""
 
 from __future__ import annotations
 
@@ -11,11 +13,13 @@ SIDES = ("both", "alarms", "misses")
 
 @dataclass(frozen=True)
 class Tolerance:
-    """The distance up to which an answer may be wrong by the engine's documentation: the sum of three parts.
+    """The distance up to which an answer may be wrong by the engine's documentation: the sum of
+    three parts.
 
-    length: in the units of the query. relative: a share of the size of the larger body. step: a share of the path of
-    the step, the length of the displacement plus angle times size. sides: "alarms" (a clear pair called a hit),
-    "misses" or "both". ValueError for a negative number or another side.
+    length: in the units of the query. relative: a share of the size of the larger body. step: a
+    share of the path of the step, the length of the displacement plus angle times size. sides:
+    "alarms" (a clear pair called a hit), "misses" or "both". ValueError for a negative number or
+    another side.
     """
 
     length: float = 0.0
@@ -24,8 +28,12 @@ class Tolerance:
     sides: str = "both"
 
     def __post_init__(self):
-        if self.sides not in SIDES or not all(0 <= v < np.inf for v in (self.length, self.relative, self.step)):
-            raise ValueError(f"{self} is no tolerance: numbers from 0 on, and sides one of {', '.join(SIDES)}.")
+        if self.sides not in SIDES or not all(
+            0 <= v < np.inf for v in (self.length, self.relative, self.step)
+        ):
+            raise ValueError(
+                f"{self} is no tolerance: numbers from 0 on, and sides one of {', '.join(SIDES)}."
+            )
 
     def reach(self, size, path):
         """The distance, for bodies of this size and a step of this path: floats or (n,) arrays."""
@@ -36,8 +44,11 @@ class Tolerance:
         return self.sides in ("both", side)
 
     def __str__(self):
-        parts = [f"{self.length:g}" if self.length else "", f"{self.relative:g} of the size" if self.relative else "",
-                 f"{self.step:g} of the step" if self.step else ""]
+        parts = [
+            f"{self.length:g}" if self.length else "",
+            f"{self.relative:g} of the size" if self.relative else "",
+            f"{self.step:g} of the step" if self.step else "",
+        ]
         said = " + ".join(filter(None, parts)) or "none"
         return said if said == "none" or self.sides == "both" else f"{said} ({self.sides})"
 

@@ -1,19 +1,21 @@
 """Best effort, part one: the units and the origin that suit an engine.
 
 Engines have absolute tolerances and margins, and lose digits far from the origin. A careful user
-measures in units that suit the engine and puts the origin beside the bodies; so do the methods below.
-Both cost no accuracy: units are powers of two, and the origin is B's position, subtracted in double.
-Which unit suits an engine is counted by `experiments/tuning.py`, on cases that no run counts.
+measures in units that suit the engine and puts the origin beside the bodies; so do the methods
+below. Both cost no accuracy: units are powers of two, and the origin is B's position, subtracted in
+double. Which unit suits an engine is counted by `experiments/studies/tuning.py`, on cases that no
+run counts.
 """
 
 from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import Callable
+from typing import ClassVar
 
 from ofg import Body, Pose, Query
 
@@ -38,8 +40,14 @@ def tuned() -> dict[str, float]:
 
 
 class Normalised:
-    """Put this before a method: `class FclExact(Normalised, FclConvex)`. Its tolerance in length
-    is in its own units: at most so large a share of the size of the larger body, which is what is declared."""
+    """Put this before a method: `class FclExact(Normalised, FclConvex)`.
+
+    A length in its tolerance is in the method's own unit, so that what it declares of a query is a
+    share of the size of the larger body, which is at least the radius that gives the unit.
+    """
+
+    #: where it is not that of the method behind this class
+    own_tolerance: ClassVar[Tolerance | None] = None
 
     @property
     def length(self) -> float:
@@ -52,7 +60,7 @@ class Normalised:
 
     @property
     def tolerance(self) -> Tolerance:
-        own = super().tolerance
+        own = super().tolerance if self.own_tolerance is None else self.own_tolerance
         return replace(own, length=0.0, relative=own.relative + own.length / self.length)
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:

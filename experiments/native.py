@@ -18,12 +18,12 @@ from rich.console import Console
 from baselines import native, registry
 from ofg import Motion, Pose, Query
 
-from . import shapes
-from .case import Case
-from .config import TimingChoice
-from .scenario import snap
-from .scenarios._place import any_direction, touching
-from .timing import COLUMNS, FLOOR, Bin, time_bin
+from .cases import shapes
+from .cases.case import Case
+from .run.config import TimingChoice
+from .cases.scenario import snap
+from .cases.placement import any_direction, touching
+from .run.timing import Bin, COLUMNS, FLOOR, time_bin
 
 FACES = (12, 80, 320, 1280)
 SITUATIONS = ("apart", "overlapping", "flight")

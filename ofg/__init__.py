@@ -1,4 +1,6 @@
-"""Opposing Face Geometry (Eli Kara, GameDev.net 2004): a collision test that looks only at the faces that oppose each other."""
+"""Opposing Face Geometry (Eli Kara, GameDev.net 2004): a collision test that looks only at the
+faces that oppose each other.
+"""
 
 from .algorithm import (
     article,

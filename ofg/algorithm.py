@@ -24,39 +24,45 @@ _KEPT_SOLIDS = 256
 MOST_THREADS = 256
 
 
-def discrete(a: Body, b: Body, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, k: int = 8, **options: Any) -> Answer:
+def discrete(
+    a: Body, b: Body, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, k: int = 8, **options: Any
+) -> Answer:
     """Discrete OFG in eight steps: do the surfaces of `a` and `b` meet at these poses?
 
-    k: faces in each selection. At k no less than the number of faces the answer is that of testing all pairs of faces.
-    Without repairs a body wholly inside another is not seen, and k too small misses.
+    k: faces in each selection. At k no less than the number of faces the answer is that of testing
+    all pairs of faces. Without repairs a body wholly inside another is not seen, and k too small
+    misses.
 
     Options of all calls:
-    order: of a sweep's tests. "ends" (the start, the end, then the virtual edges: a hit at an end has the time 0 or 1 and needs no
-    estimate) or "steps" (the article's list read literally: virtual edges first).
-    toi: how a hit between the ends gets its time. "velocity" (the parameter at which the virtual edge meets the face, put on the
-    real motion), "halving" (the article's second way read literally: move half of the step and test the faces; if none met, move
-    half of what is left, and so on; NaN where no move meets), "bisection" (halving with the bracket kept) or "none".
-    iterations: halvings at most (20: a bisection's bracket is then 1e-6 of the step; its later end is returned).
-    broad: "swept" (step 1 with bounding spheres swept along the motion) or "start" (at the start pose, the literal reading).
-    The default stays "swept" with repairs="none": step 1 at the start loses fast movers before any other repair can act.
-    concave: "object" (OFG at the object level picks one pair of pieces), "undivided" (the surface as one mesh) or "all-pairs" of pieces.
-    precision: "double" or "float" (the relative pose is in double always).
-    screen: True to let a plane between the whole bodies settle "no" before the steps. The answers are the same, sooner where bodies are
-    near and apart, soonest in `discrete_many`; the counts are then of what was done. Adaptive k always does it.
-    repairs: "none", "all", "all-but-X", "X" or "X+Y" of the names below; or one by one:
-    nearest="point-triangle" (point-triangle: how faces are ranked; "centroid" in the article),
-    adaptive_k=True (adaptive-k), broad="swept" (swept-spheres), both_vertices=True (both-vertices),
-    edge_edge=True (edge-edge), selection_times=3 (selection-times: at how many times of the step
-    faces are selected), arc_tolerance=1e-6 (arcs: chords stray by no more than this share of A's
-    radius), containment=True (containment), concave="all-pairs" (all-pieces), end_moment=True (end-moment: a hit that
-    only the end shows is given its moment by bisection), piece_times=3 (pieces-over-time: pieces are picked at the start, the end and
-    where the centres pass closest), earliest=True (earliest).
+    order: of a sweep's tests. "ends" (the start, the end, then the virtual edges: a hit at an end
+    has the time 0 or 1 and needs no estimate) or "steps" (the article's list read literally:
+    virtual edges first). toi: how a hit between the ends gets its time. "velocity" (the parameter
+    at which the virtual edge meets the face, put on the real motion), "halving" (the article's
+    second way read literally: move half of the step and test the faces; if none met, move half of
+    what is left, and so on; NaN where no move meets), "bisection" (halving with the bracket kept)
+    or "none". iterations: halvings at most (20: a bisection's bracket is then 1e-6 of the step; its
+    later end is returned). broad: "swept" (step 1 with bounding spheres swept along the motion) or
+    "start" (at the start pose, the literal reading). The default stays "swept" with repairs="none":
+    step 1 at the start loses fast movers before any other repair can act. concave: "object" (OFG at
+    the object level picks one pair of pieces), "undivided" (the surface as one mesh) or "all-pairs"
+    of pieces. precision: "double" or "float" (the relative pose is in double always). screen: True
+    to let a plane between the whole bodies settle "no" before the steps. The answers are the same,
+    sooner where bodies are near and apart, soonest in `discrete_many`; the counts are then of what
+    was done. Adaptive k always does it. repairs: "none", "all", "all-but-X", "X" or "X+Y" of the
+    names below; or one by one: nearest="point-triangle" (point-triangle: how faces are ranked;
+    "centroid" in the article), adaptive_k=True (adaptive-k), broad="swept" (swept-spheres),
+    both_vertices=True (both-vertices), edge_edge=True (edge-edge), selection_times=3
+    (selection-times: at how many times of the step faces are selected), arc_tolerance=1e-6 (arcs:
+    chords stray by no more than this share of A's radius), containment=True (containment),
+    concave="all-pairs" (all-pieces), end_moment=True (end-moment: a hit that only the end shows is
+    given its moment by bisection), piece_times=3 (pieces-over-time: pieces are picked at the start,
+    the end and where the centres pass closest), earliest=True (earliest).
 
     Ranges: bodies whose largest coordinate is between 1e-60 and 1e60, with precision="float"
-    between 1e-10 and 1e10; positions and motions as Pose and Motion say, with precision="float" those of A
-    relative to B up to 1e10.
-    Raises TypeError for what is of another type, ValueError for an option that is unknown or a
-    value that is out of range. Source: Kara, "Opposing Face Geometry", GameDev.net 2004.
+    between 1e-10 and 1e10; positions and motions as Pose and Motion say, with precision="float"
+    those of A relative to B up to 1e10. Raises TypeError for what is of another type, ValueError
+    for an option that is unknown or a value that is out of range. Source: Kara, "Opposing Face
+    Geometry", GameDev.net 2004.
     """
     return _ask(False, a, b, pose_a, pose_b, Motion(), Motion(), OFG, k=k, **options)
 
@@ -72,11 +78,23 @@ def translational_sweep(
     k: int = 8,
     **options: Any,
 ) -> Answer:
-    """Translational sweep in six steps: `a` moves by `displacement` (and `b` by `displacement_b`), each (3,), over t in [0, 1].
+    """Translational sweep in six steps: `a` moves by `displacement` (and `b` by `displacement_b`),
+    each (3,), over t in [0, 1].
 
     Options as of `discrete`. Source: part 3 of the article, "Solving the discrete time problem".
     """
-    return _ask(True, a, b, pose_a, pose_b, _shift(displacement), _shift(displacement_b), OFG, k=k, **options)
+    return _ask(
+        True,
+        a,
+        b,
+        pose_a,
+        pose_b,
+        _shift(displacement),
+        _shift(displacement_b),
+        OFG,
+        k=k,
+        **options,
+    )
 
 
 def rotational_sweep(
@@ -104,18 +122,21 @@ def ask(query: Query, *, k: int = 8, **options: Any) -> Answer:
 
 
 def article(query: Query, *, k: int = 8, broad: str = "start", **options: Any) -> Answer:
-    """The article's steps and nothing else: no acceleration and no repair. ARTICLE.md goes through it sentence by sentence.
+    """The article's steps and nothing else: no acceleration and no repair. ARTICLE.md goes through
+    it sentence by sentence.
 
-    broad: step 1 of a sweep at the start pose, as it reads literally, or "swept". Further options: toi, order, iterations, precision,
-    as of `discrete`. `ask` with the same options gives the same answers, sooner. TypeError for another option.
+    broad: step 1 of a sweep at the start pose, as it reads literally, or "swept". Further options:
+    toi, order, iterations, precision, as of `discrete`. `ask` with the same options gives the same
+    answers, sooner. TypeError for another option.
     """
     check_article(options)
     return _ask(*_asked(query), ARTICLE, k=k, broad=broad, **options)
 
 
 def brute_force(query: Query, *, precision: str = "double") -> Answer:
-    """All faces against all faces; in a sweep also every virtual edge of A against every face of B, with the earliest time. Bodies are
-    undivided."""
+    """All faces against all faces; in a sweep also every virtual edge of A against every face of B,
+    with the earliest time. Bodies are undivided.
+    """
     return _ask(*_asked(query), BRUTE_FORCE, precision=precision)
 
 
@@ -131,8 +152,9 @@ def discrete_many(
 ) -> Answers:
     """`discrete` for n pairs of poses in one call, without the interpreter lock.
 
-    poses_a, poses_b: sequences of n Pose, or (n, 7) arrays of quaternion (w, x, y, z) and position; one Pose stands for n of it.
-    threads: how many, 1 to 256; None for one per core. Answers do not depend on it.
+    poses_a, poses_b: sequences of n Pose, or (n, 7) arrays of quaternion (w, x, y, z) and position;
+    one Pose stands for n of it. threads: how many, 1 to 256; None for one per core. Answers do not
+    depend on it.
     """
     return _many(False, a, b, poses_a, poses_b, Motion(), Motion(), OFG, threads, k=k, **options)
 
@@ -256,9 +278,9 @@ def _ask(
     checks.pose(pose_b, "pose_b")
     checks.motion(motion_a, "motion_a")
     checks.motion(motion_b, "motion_b")
-    return _many(
-        moving, a, b, [pose_a], [pose_b], [motion_a], [motion_b], algorithm, 1, **options
-    )[0]
+    return _many(moving, a, b, [pose_a], [pose_b], [motion_a], [motion_b], algorithm, 1, **options)[
+        0
+    ]
 
 
 def _many(  # noqa: PLR0913 - what the core takes

@@ -9,13 +9,22 @@ import numpy as np
 #: what the hit is, in the order of the core's codes
 FOUND = ("nothing", "start", "end", "edge-face", "face-edge", "edge-edge", "inside", "within")
 #: what is counted: see `Answer.counts`
-COUNTS = ("spheres", "distances", "face_pairs", "edge_faces", "edge_pairs", "full_tests", "evaluated", "steps")
+COUNTS = (
+    "spheres",
+    "distances",
+    "face_pairs",
+    "edge_faces",
+    "edge_pairs",
+    "full_tests",
+    "evaluated",
+    "steps",
+)
 
 
 @dataclass(frozen=True)
 class Answer:
-    """hit: the bodies meet. time: of impact in [0, 1]: 0 or 1 where faces meet at an end of the step; NaN of an overlap query, and
-    where the estimate gives none.
+    """hit: the bodies meet. time: of impact in [0, 1]: 0 or 1 where faces meet at an end of the
+    step; NaN of an overlap query, and where the estimate gives none.
 
     found: what met. "start" or "end": faces at that pose of the step; an overlap query has only
     "start". "edge-face": a virtual edge of A and a face of B. With repairs also "face-edge": a
@@ -27,8 +36,9 @@ class Answer:
     did, as with "inside".
     pieces: (piece of A, piece of B) that were asked; -1 for an undivided mesh.
     estimate: "velocity", "bisection", "halving" or "none": how the time was found.
-    counts: operations by kind: spheres (pairs compared), distances (point to face or piece), face_pairs (settled), edge_faces (virtual
-    edges against faces), edge_pairs, full_tests (of face_pairs: not settled by a cheap rejection), evaluated (distances computed to settle
+    counts: operations by kind: spheres (pairs compared), distances (point to face or piece),
+    face_pairs (settled), edge_faces (virtual edges against faces), edge_pairs, full_tests (of
+    face_pairs: not settled by a cheap rejection), evaluated (distances computed to settle
     `distances`, to faces and to boxes of blocks of faces), steps (parts of the step, halvings).
     """
 
@@ -46,9 +56,11 @@ class Answer:
 
 @dataclass(frozen=True, eq=False)
 class Answers:
-    """The fields of `Answer` as arrays over n queries: hit (n,) bool, time (n,) float64, found (n,) int8 (codes: index into FOUND),
-    faces and pieces (n, 2) int32, counts (n, 8) int64 in the order of COUNTS.
-    answers[i] is one Answer. Many answers are neither true nor false: bool(answers) raises ValueError."""
+    """The fields of `Answer` as arrays over n queries: hit (n,) bool, time (n,) float64, found (n,)
+    int8 (codes: index into FOUND), faces and pieces (n, 2) int32, counts (n, 8) int64 in the order
+    of COUNTS. answers[i] is one Answer. Many answers are neither true nor false: bool(answers)
+    raises ValueError.
+    """
 
     hit: np.ndarray
     time: np.ndarray

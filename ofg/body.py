@@ -131,15 +131,14 @@ class Body(Frozen):
         )
 
     @classmethod
-    def _from_parts(
-        cls, parts: list[Part], name: str, who: str, split: bool, weld: float
-    ) -> Body:
+    def _from_parts(cls, parts: list[Part], name: str, who: str, split: bool, weld: float) -> Body:
         split = checks.truth("split", split)
         parts = [(solid.points(v, who, 1), f) for v, f in parts]
         parts = [solid.welded(v, solid.triangles(f, len(v), who), weld, who) for v, f in parts]
         first = np.cumsum([0] + [len(v) for v, _ in parts])
-        v, f = np.concatenate([v for v, _ in parts]), np.concatenate(
-            [f + n for (_, f), n in zip(parts, first)]
+        v, f = (
+            np.concatenate([v for v, _ in parts]),
+            np.concatenate([f + n for (_, f), n in zip(parts, first)]),
         )
         if split:
             solid.require_balance(*surface.merged(v, f), who)
@@ -195,8 +194,9 @@ class Body(Frozen):
         pieces: tuple[Body, ...],
         name: str,
     ) -> Body:
-        vertices, faces = np.array(vertices, np.float64, order="C"), np.array(
-            faces, np.int32, order="C"
+        vertices, faces = (
+            np.array(vertices, np.float64, order="C"),
+            np.array(faces, np.int32, order="C"),
         )
         vertices.setflags(write=False)
         faces.setflags(write=False)

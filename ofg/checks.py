@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from numbers import Real
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -186,9 +187,7 @@ def whole(name: str, value: Any, least: int, most: int = 2**31 - 1) -> int:
     except (TypeError, ValueError, OverflowError):
         fits = False
     if not fits or not least <= value <= most:
-        raise ValueError(
-            f"{name} = {shown(value)} must be a whole number from {least} to {most}."
-        )
+        raise ValueError(f"{name} = {shown(value)} must be a whole number from {least} to {most}.")
     return int(value)
 
 

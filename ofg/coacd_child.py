@@ -27,9 +27,8 @@ def main(seconds: str) -> None:
     """Read a mesh from stdin, write its pieces to stdout; end after that many seconds."""
     end_with_parent()
     if hasattr(signal, "alarm"):
-        signal.alarm(
-            int(float(seconds)) + 5
-        )  # its default action ends the process, also in native code
+        # its default action ends the process, also in native code
+        signal.alarm(int(float(seconds)) + 5)
     answer = os.dup(1)
     os.dup2(2, 1)  # what CoACD prints must not get into the archive
     import coacd

@@ -8,8 +8,8 @@ import numpy as np
 
 
 class Frozen:
-    """Base of a frozen dataclass of arrays. Numpy forgets on the way through pickle that an array is
-    read-only: what one method writes into a body, every later method would be asked about.
+    """Base of a frozen dataclass of arrays. Numpy forgets on the way through pickle that an array
+    is read-only: what one method writes into a body, every later method would be asked about.
     """
 
     def __setstate__(self, state: dict[str, Any]) -> None:

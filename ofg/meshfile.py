@@ -62,9 +62,10 @@ def read(path: Path, most: int = MOST_BYTES) -> list[Part]:
     try:
         _require_size(path.stat().st_size, most, who)
         if kind in ("gz", "bz2"):
-            unpacked, kind = (gzip.open if kind == "gz" else bz2.open), Path(
-                path.stem
-            ).suffix.lower().lstrip(".")
+            unpacked, kind = (
+                (gzip.open if kind == "gz" else bz2.open),
+                Path(path.stem).suffix.lower().lstrip("."),
+            )
             _require_known(kind, who)
             with unpacked(path, "rb") as stream:
                 data = stream.read(most + 1)

@@ -1,4 +1,6 @@
-"""How a body moves over one step: it turns about one of its points and translates, both at constant speed."""
+"""How a body moves over one step: it turns about one of its points and translates, both at constant
+speed.
+"""
 
 from __future__ import annotations
 
@@ -15,15 +17,16 @@ from .pose import Pose, near_one
 
 @dataclass(frozen=True, eq=False)
 class Motion(Frozen):
-    """x(t) = p + R(q) c + t d + Rot(axis/|axis|, angle t) R(q) (v - c) for t in [0, 1], from a start pose (q, p).
+    """x(t) = p + R(q) c + t d + Rot(axis/|axis|, angle t) R(q) (v - c) for t in [0, 1], from a
+    start pose (q, p).
 
-    displacement: d, (3,) float64, length: of the point c over the step. axis: (3,) float64, any non-zero length, fixed in the
-    world. angle: radians over the step, any size (2 pi n is n full turns). about: c, (3,) float64, the point of the body, in the
-    body's frame, about which it turns; the origin of that frame by default. A Motion() is rest.
-    Range: displacement and about up to 1e60, angles up to 1e9, the largest component of the axis of
-    a turn between 1e-300 and 1e300 in size.
-    Raises TypeError for what is no numbers; ValueError for numbers that are not finite or out of
-    range, or a zero axis with a non-zero angle.
+    displacement: d, (3,) float64, length: of the point c over the step. axis: (3,) float64, any
+    non-zero length, fixed in the world. angle: radians over the step, any size (2 pi n is n full
+    turns). about: c, (3,) float64, the point of the body, in the body's frame, about which it
+    turns; the origin of that frame by default. A Motion() is rest. Range: displacement and about up
+    to 1e60, angles up to 1e9, the largest component of the axis of a turn between 1e-300 and 1e300
+    in size. Raises TypeError for what is no numbers; ValueError for numbers that are not finite or
+    out of range, or a zero axis with a non-zero angle.
     """
 
     displacement: np.ndarray = field(default_factory=lambda: np.zeros(3))
@@ -40,7 +43,9 @@ class Motion(Frozen):
         checks.lengths(self.about, "Motion.about")
         checks.angle(self.angle, "Motion.angle")
         if self.angle and not self.axis.any():
-            raise ValueError("Motion.axis is zero while Motion.angle is not; give the axis of the turn.")
+            raise ValueError(
+                "Motion.axis is zero while Motion.angle is not; give the axis of the turn."
+            )
         if self.angle:
             checks.direction(self.axis, "Motion.axis")
 
@@ -55,13 +60,17 @@ class Motion(Frozen):
         """A motion whose angle is given in degrees, rounded to double radians."""
         vectors = {"displacement": displacement, "axis": axis, "about": about}
         radians = math.radians(checks.number(angle, "angle"))
-        return cls(angle=radians, **{k: checks.vector(v, 3, f"Motion.{k}") for k, v in vectors.items()})
+        return cls(
+            angle=radians, **{k: checks.vector(v, 3, f"Motion.{k}") for k, v in vectors.items()}
+        )
 
     @classmethod
     def between(cls, pose0: Pose, pose1: Pose, about: ArrayLike = (0, 0, 0)) -> Motion:
-        """The motion at constant velocity from one pose to another, as FCL, Bullet and Box2D state it; in double rounding.
+        """The motion at constant velocity from one pose to another, as FCL, Bullet and Box2D state
+        it; in double rounding.
 
-        The body turns by the shorter way, at most half a turn, about its point `about`, which moves on a straight line.
+        The body turns by the shorter way, at most half a turn, about its point `about`, which moves
+        on a straight line.
         """
         checks.pose(pose0, "pose0")
         checks.pose(pose1, "pose1")
@@ -89,7 +98,9 @@ class Motion(Frozen):
             return Pose(start.quaternion, position)
         half = 0.5 * self.angle * t
         axis = near_one(self.axis)
-        turn = Pose(np.concatenate([[math.cos(half)], math.sin(half) * axis / np.linalg.norm(axis)]))
+        turn = Pose(
+            np.concatenate([[math.cos(half)], math.sin(half) * axis / np.linalg.norm(axis)])
+        )
         if self.about.any():
             arm = start.rotation @ self.about
             position = position + (arm - turn.rotation @ arm)
@@ -98,4 +109,6 @@ class Motion(Frozen):
 
 def _multiply(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Hamilton product of two (w, x, y, z) quaternions."""
-    return np.concatenate([[p[0] * q[0] - p[1:] @ q[1:]], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])])
+    return np.concatenate(
+        [[p[0] * q[0] - p[1:] @ q[1:]], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])]
+    )

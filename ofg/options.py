@@ -1,8 +1,11 @@
-"""What may be chosen in a query: the article by default, and every repair as a switch of its own."""
+"""What may be chosen in a query: the article by default, and every repair as a switch of its
+own.
+"""
 
 from __future__ import annotations
 
-from typing import Any, Mapping
+from collections.abc import Mapping
+from typing import Any
 
 from . import _core, checks
 
@@ -13,7 +16,13 @@ CONCAVE = ("object", "undivided", "all-pairs")
 PRECISION = ("double", "float")
 NEAREST = ("centroid", "point-triangle")
 SWITCHES = (
-    "adaptive_k", "both_vertices", "edge_edge", "containment", "end_moment", "earliest", "screen"
+    "adaptive_k",
+    "both_vertices",
+    "edge_edge",
+    "containment",
+    "end_moment",
+    "earliest",
+    "screen",
 )
 #: options that had another name once
 RENAMED = {"selection": "nearest", "selections": "selection_times"}
@@ -38,8 +47,8 @@ REPAIRS: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {
 def repair_options(repairs: str) -> dict[str, Any]:
     """Options for a word: "none", "all", "all-but-X", "X" or "X+Y" with X, Y names of REPAIRS.
 
-    "all-but-X" sets X's options to what they are without it ("all-but-swept-spheres" tests step 1 at the start pose).
-    Raises TypeError for what is no word, ValueError for a name that is not one.
+    "all-but-X" sets X's options to what they are without it ("all-but-swept-spheres" tests step 1
+    at the start pose). Raises TypeError for what is no word, ValueError for a name that is not one.
     """
     if not isinstance(repairs, str):
         raise TypeError(
@@ -53,8 +62,8 @@ def repair_options(repairs: str) -> dict[str, Any]:
     unknown = [name for name in [*on, *off] if name not in REPAIRS]
     if unknown:
         raise ValueError(
-            f"repairs = '{repairs}' names no repair '{unknown[0]}'; there are none, all, all-but-X, X and X+Y with X and Y of: "
-            f"{', '.join(REPAIRS)}."
+            f"repairs = '{repairs}' names no repair '{unknown[0]}'; there are none, all, all-but-X,"
+            f" X and X+Y with X and Y of: {', '.join(REPAIRS)}."
         )
     options: dict[str, Any] = {}
     for name in on:
@@ -114,7 +123,7 @@ def _refuse(name: str) -> None:
     if name in RENAMED:
         raise TypeError(f"OFG has no option '{name}' any more; it is called '{RENAMED[name]}'.")
     raise TypeError(
-        f"OFG has no option '{name}'; it has k, toi, broad, concave, order, iterations, repairs, nearest, "
-        "adaptive_k, both_vertices, edge_edge, selection_times, arc_tolerance, containment, "
-        "end_moment, piece_times, earliest, screen."
+        f"OFG has no option '{name}'; it has k, toi, broad, concave, order, iterations, repairs,"
+        " nearest, adaptive_k, both_vertices, edge_edge, selection_times, arc_tolerance,"
+        " containment, end_moment, piece_times, earliest, screen."
     )

@@ -20,7 +20,13 @@ NOT_KEPT = (
 )
 #: what numpy and zipfile raise for an archive that is none
 _BROKEN = (
-    OSError, ValueError, KeyError, EOFError, MemoryError, NotImplementedError, zipfile.BadZipFile
+    OSError,
+    ValueError,
+    KeyError,
+    EOFError,
+    MemoryError,
+    NotImplementedError,
+    zipfile.BadZipFile,
 )
 _kept_here: dict[Path, bytes] = {}  # what the disk did not take, for the rest of this process
 

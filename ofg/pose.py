@@ -14,13 +14,12 @@ from .frozen import Frozen
 class Pose(Frozen):
     """World point = N(q)/|q|^2 v + p for a body point v.
 
-    quaternion: (4,) float64, (w, x, y, z), any non-zero length: the rotation it stands for is N(q)/|q|^2, which needs no
-    normalisation and is rational in q, so the truth can be exact.
-    position: (3,) float64, length unit of the bodies.
-    Range: the largest component of the quaternion between 1e-300 and 1e300 in size, positions up to
-    1e60. Within it a quaternion's length changes nothing.
-    Raises TypeError for what is no numbers; ValueError for a wrong shape, a number that is not
-    finite or out of range, or the zero quaternion.
+    quaternion: (4,) float64, (w, x, y, z), any non-zero length: the rotation it stands for is
+    N(q)/|q|^2, which needs no normalisation and is rational in q, so the truth can be exact.
+    position: (3,) float64, length unit of the bodies. Range: the largest component of the
+    quaternion between 1e-300 and 1e300 in size, positions up to 1e60. Within it a quaternion's
+    length changes nothing. Raises TypeError for what is no numbers; ValueError for a wrong shape, a
+    number that is not finite or out of range, or the zero quaternion.
     """
 
     quaternion: np.ndarray = field(default_factory=lambda: np.array([1.0, 0.0, 0.0, 0.0]))
@@ -31,7 +30,9 @@ class Pose(Frozen):
         object.__setattr__(self, "quaternion", quaternion)
         object.__setattr__(self, "position", checks.vector(self.position, 3, "Pose.position"))
         if not self.quaternion.any():
-            raise ValueError("Pose.quaternion is zero, which is no rotation; use (1, 0, 0, 0) for none.")
+            raise ValueError(
+                "Pose.quaternion is zero, which is no rotation; use (1, 0, 0, 0) for none."
+            )
         checks.direction(self.quaternion, "Pose.quaternion")
         checks.lengths(self.position, "Pose.position")
 
@@ -40,11 +41,13 @@ class Pose(Frozen):
         """(3, 3) float64 rotation matrix, rounded to double."""
         q = near_one(self.quaternion)
         w, x, y, z = q / np.linalg.norm(q)
-        return np.array([
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ])
+        return np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+            ]
+        )
 
     @property
     def matrix(self) -> np.ndarray:

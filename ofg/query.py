@@ -16,10 +16,10 @@ QUESTIONS = ("overlap", "translation", "motion")
 class Query:
     """Do the interiors of two solids meet, and from when on?
 
-    question: "overlap": at the given poses. "translation": while the bodies translate in t in [0, 1]. "motion": while they turn
-    and translate. motion: that of A. motion_b: that of B, which rests by default.
-    Raises TypeError for a field of another type, ValueError where a motion does not fit the
-    question.
+    question: "overlap": at the given poses. "translation": while the bodies translate in t in [0,
+    1]. "motion": while they turn and translate. motion: that of A. motion_b: that of B, which rests
+    by default. Raises TypeError for a field of another type, ValueError where a motion does not fit
+    the question.
     """
 
     question: str
@@ -40,10 +40,18 @@ class Query:
             checks.motion(getattr(self, name), f"Query.{name}")
         for name, motion in (("motion", self.motion), ("motion_b", self.motion_b)):
             if self.question == "overlap" and not motion.rests:
-                raise ValueError(f"Query.question = 'overlap' asks about one pair of poses, but {name} moves; ask 'translation' or 'motion'.")
+                raise ValueError(
+                    f"Query.question = 'overlap' asks about one pair of poses, but {name} moves;"
+                    " ask 'translation' or 'motion'."
+                )
             if self.question == "translation" and motion.angle:
-                raise ValueError(f"Query.question = 'translation' cannot turn, but {name}.angle is not 0; ask 'motion'.")
+                raise ValueError(
+                    f"Query.question = 'translation' cannot turn, but {name}.angle is not 0; ask"
+                    " 'motion'."
+                )
 
     def swapped(self) -> Query:
         """The same question with A and B exchanged; its answer is the same."""
-        return Query(self.question, self.b, self.a, self.pose_b, self.pose_a, self.motion_b, self.motion)
+        return Query(
+            self.question, self.b, self.a, self.pose_b, self.pose_a, self.motion_b, self.motion
+        )

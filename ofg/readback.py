@@ -1,4 +1,6 @@
-"""Bodies that were stored, read back vertex for vertex and face for face, and checked as new ones are."""
+"""Bodies that were stored, read back vertex for vertex and face for face, and checked as new ones
+are.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,8 @@ def body(
     piece_faces: ArrayLike = (),
     name: str = "body",
 ) -> Body:
-    """The body that these arrays are of, unchanged. BodyError where no constructor would have made it.
+    """The body that these arrays are of, unchanged. BodyError where no constructor would have made
+    it.
 
     vertices: 3 n numbers or (n, 3). faces: 3 m indices or (m, 3); of a union those of its pieces,
     one piece after another, counted through. piece_vertices, piece_faces: how many each piece of a
@@ -29,7 +32,9 @@ def body(
     """
     who = f"Body '{checks.shown(name)[1:-1]}'"
     if kind not in ("convex", "mesh", "union"):
-        raise BodyError(f"{who}: its kind is {checks.shown(kind)}; it must be convex, mesh or union.")
+        raise BodyError(
+            f"{who}: its kind is {checks.shown(kind)}; it must be convex, mesh or union."
+        )
     v = solid.points(_threes(vertices, "vertices", who), who)
     f = solid.triangles(_threes(faces, "faces", who), len(v), who)
     if kind == "mesh":
@@ -38,9 +43,14 @@ def body(
     if kind == "convex":
         _check_convex(v, f, who)
         return Body._of("convex", v, f, (), name)
-    v0, f0 = _ends(piece_vertices, len(v), "vertices", who), _ends(piece_faces, len(f), "faces", who)
+    v0, f0 = (
+        _ends(piece_vertices, len(v), "vertices", who),
+        _ends(piece_faces, len(f), "faces", who),
+    )
     if len(v0) != len(f0):
-        raise BodyError(f"{who}: it counts the vertices of {len(v0) - 1} pieces and the faces of {len(f0) - 1}.")
+        raise BodyError(
+            f"{who}: it counts the vertices of {len(v0) - 1} pieces and the faces of {len(f0) - 1}."
+        )
     pieces = []
     for i in range(len(v0) - 1):
         of, at = f"{who}, piece {i}", v[v0[i] : v0[i + 1]]
@@ -74,8 +84,8 @@ def _ends(counts: ArrayLike, total: int, what: str, who: str) -> np.ndarray:
     fine = n.ndim == 1 and n.size and n.dtype.kind in "iu" and n.min() > 0 and n.max() <= total
     if not fine or sum(n.tolist()) != total:
         raise BodyError(
-            f"{who}: the {what} of its pieces are counted {checks.shown(counts)}; the counts must be above 0 "
-            f"and add up to {total}."
+            f"{who}: the {what} of its pieces are counted {checks.shown(counts)}; the counts must"
+            f" be above 0 and add up to {total}."
         )
     return np.concatenate([[0], np.cumsum(n)])
 
@@ -89,7 +99,10 @@ def _check_mesh(v: np.ndarray, f: np.ndarray, who: str) -> None:
         except solid.BodyWarning as turned:
             raise BodyError(f"{who}: its surface is inside-out.") from turned
     if w.shape != v.shape or g.shape != f.shape or not (w == v).all() or not (g == f).all():
-        raise BodyError(f"{who}: it has vertices or faces that Body.mesh would have left out, or in another order.")
+        raise BodyError(
+            f"{who}: it has vertices or faces that Body.mesh would have left out, or in another"
+            " order."
+        )
 
 
 def _check_convex(v: np.ndarray, f: np.ndarray, who: str) -> None:
@@ -98,9 +111,14 @@ def _check_convex(v: np.ndarray, f: np.ndarray, who: str) -> None:
         raise BodyError(f"{who}: {len(v) - len(np.unique(f))} of its vertices are on no face.")
     e = surface.Edges(f)
     if (e.uses != 2).any() or (e.unbalanced() > 0).any():
-        raise BodyError(f"{who}: its surface is open or runs twice through an edge, so it is no convex body.")
+        raise BodyError(
+            f"{who}: its surface is open or runs twice through an edge, so it is no convex body."
+        )
     hull = Body.convex(v)
     its = winding.signed_volume(hull.vertices, hull.faces)
     own = winding.signed_volume(v, f)
     if not abs(own - its) <= 1e-6 * its + 1e-13 * hull.size**3:
-        raise BodyError(f"{who}: its faces enclose {own:.9g} and the hull of its vertices {its:.9g}: it is not convex.")
+        raise BodyError(
+            f"{who}: its faces enclose {own:.9g} and the hull of its vertices {its:.9g}: it is not"
+            " convex."
+        )

@@ -151,9 +151,7 @@ def _plane(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return t[0], n / np.linalg.norm(n)
 
 
-def _section(
-    points: np.ndarray, at: np.ndarray, n: np.ndarray, along: np.ndarray
-) -> Reach | None:
+def _section(points: np.ndarray, at: np.ndarray, n: np.ndarray, along: np.ndarray) -> Reach | None:
     """The interval along a direction of a convex polygon in the plane through `at`, or None."""
     height = (points - at) @ n
     ends = []
@@ -195,8 +193,9 @@ def _reach(
             (of[:, k] == 0, place[:, k]),
             (of[:, k] * of[:, q] < 0, place[:, k] + share * (place[:, q] - place[:, k])),
         ):
-            low, high = np.where(found, np.minimum(low, x), low), np.where(
-                found, np.maximum(high, x), high
+            low, high = (
+                np.where(found, np.minimum(low, x), low),
+                np.where(found, np.maximum(high, x), high),
             )
     return low, high
 
@@ -208,9 +207,10 @@ def _overlap(s: np.ndarray, t: np.ndarray, least: float) -> np.ndarray:
         for k in range(3):
             axis = exact.cross(one[:, (k + 1) % 3] - one[:, k], n)
             axis = (axis / np.linalg.norm(axis, axis=1)[:, None])[:, None]
-            own, its = ((one - one[:, k : k + 1]) * axis).sum(axis=2), (
-                (other - one[:, k : k + 1]) * axis
-            ).sum(axis=2)
+            own, its = (
+                ((one - one[:, k : k + 1]) * axis).sum(axis=2),
+                ((other - one[:, k : k + 1]) * axis).sum(axis=2),
+            )
             out &= (its.min(axis=1) < own.max(axis=1) - least) & (
                 its.max(axis=1) > own.min(axis=1) + least
             )

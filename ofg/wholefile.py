@@ -7,8 +7,8 @@ import os
 import re
 import secrets
 import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Callable, Iterator
 
 _TEMPORARY = re.compile(r"\..+\.[0-9a-f]{8}\.unfinished")
 

@@ -1,4 +1,6 @@
-"""The README tells the truth: its code runs, its tables are those of the committed run, its files exist."""
+"""The README tells the truth: its code runs, its tables are those of the committed run, its files
+exist.
+"""
 
 import os
 import re
@@ -8,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments.readme import MARK, fill
+from experiments.publish.readme import MARK, fill
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()
@@ -17,11 +19,19 @@ BENCH = [sys.executable, "-m", "experiments.cli"]
 
 
 def bench(*words, cwd=ROOT):
-    return subprocess.run([*BENCH, *map(str, words)], cwd=cwd, capture_output=True, text=True, env={**os.environ, "COLUMNS": "160"})
+    return subprocess.run(
+        [*BENCH, *map(str, words)],
+        cwd=cwd,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "COLUMNS": "160"},
+    )
 
 
 def test_the_ten_lines_of_api_run(tmp_path):
-    done = subprocess.run([sys.executable, "-c", BLOCKS["api"]], cwd=tmp_path, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-c", BLOCKS["api"]], cwd=tmp_path, capture_output=True, text=True
+    )
     assert done.returncode == 0, done.stderr
     promised = re.findall(r"# prints (.*)", BLOCKS["api"])
     assert promised and done.stdout.splitlines() == promised
@@ -30,9 +40,21 @@ def test_the_ten_lines_of_api_run(tmp_path):
 def test_a_scenario_and_a_method_of_ones_own(tmp_path):
     (tmp_path / "falling_die.py").write_text(BLOCKS["scenario"])
     (tmp_path / "spheres.py").write_text(BLOCKS["method"])
-    (tmp_path / "mine.toml").write_text('seed = 1\nmethods = ["spheres", "fcl-convex-substeps n=4"]\ntiming = {cases = 0}\n'
-                                        'scenarios = [{name = "falling_die", cases = 3}, {name = "deep", cases = 2}]\n')
-    done = bench("run", "mine.toml", "--out", "run", "--scenarios", "falling_die.py", "--methods", "spheres.py", cwd=tmp_path)
+    (tmp_path / "mine.toml").write_text(
+        'seed = 1\nmethods = ["spheres", "fcl-convex-substeps n=4"]\ntiming = {cases = 0}\n'
+        'scenarios = [{name = "falling_die", cases = 3}, {name = "deep", cases = 2}]\n'
+    )
+    done = bench(
+        "run",
+        "mine.toml",
+        "--out",
+        "run",
+        "--scenarios",
+        "falling_die.py",
+        "--methods",
+        "spheres.py",
+        cwd=tmp_path,
+    )
     assert done.returncode == 0, done.stderr
     assert "falling_die" in done.stdout and "spheres" in done.stdout
     again = bench("tables", "run", cwd=tmp_path)
@@ -50,20 +72,33 @@ def test_the_tables_are_those_of_the_committed_run():
     assert fill(README, ROOT / "results" / "quick" / "tables") == README
 
 
-@pytest.mark.parametrize("target", sorted(set(re.findall(r"\]\((?!http)([^)#]+)\)", README)) | set(re.findall(r"`((?:experiments|baselines|ofg)/[\w/.]+)`", README))))
+@pytest.mark.parametrize(
+    "target",
+    sorted(
+        set(re.findall(r"\]\((?!http)([^)#]+)\)", README))
+        | set(re.findall(r"`((?:experiments|baselines|ofg)/[\w/.]+)`", README))
+    ),
+)
 def test_what_it_names_exists(target):
     assert (ROOT / target).exists()
 
 
-@pytest.mark.parametrize("words, expected", [
-    (["run", "qick"], "did you mean quick"),
-    (["tables", "nowhere"], "no run folder"),
-    (["check", "fcl-convx"], "fcl-convex"),
-    (["list", "--methods", "nowhere.py"], "does not exist"),
-])
+@pytest.mark.parametrize(
+    "words, expected",
+    [
+        (["run", "qick"], "did you mean quick"),
+        (["tables", "nowhere"], "no run folder"),
+        (["check", "fcl-convx"], "fcl-convex"),
+        (["list", "--methods", "nowhere.py"], "does not exist"),
+    ],
+)
 def test_errors_of_the_user_are_one_paragraph(words, expected):
     done = bench(*words)
-    assert done.returncode == 2 and expected in " ".join(done.stderr.split()) and "Traceback" not in done.stderr
+    assert (
+        done.returncode == 2
+        and expected in " ".join(done.stderr.split())
+        and "Traceback" not in done.stderr
+    )
 
 
 def test_every_command_has_help_that_says_something():

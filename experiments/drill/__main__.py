@@ -12,13 +12,13 @@ import shutil
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 from random import Random
-from typing import Callable
 
-from experiments.progress import stage
+from experiments.run.progress import stage
 
 from . import command, kin, measure
 from .command import Attempt, Bench

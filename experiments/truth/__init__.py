@@ -2,26 +2,43 @@
 
 from __future__ import annotations
 
-from typing import Iterable
+from collections.abc import Iterable
 
+from experiments.cases.label import Truth
 from ofg import Query
 
-from .checker import Check, check, check_many
-from .label import Truth
-from .prover import prove, uncertain
-from .verify import Verification, verify
+from .check.checker import Check, check, check_many
+from .check.verify import Verification, verify
+from .prove.prover import prove, uncertain
 
-__all__ = ["Check", "Truth", "Verification", "check", "check_many", "label", "label_many", "prove", "verify"]
+__all__ = [
+    "Check",
+    "Truth",
+    "Verification",
+    "check",
+    "check_many",
+    "label",
+    "label_many",
+    "prove",
+    "verify",
+]
 
 
 def label(query: Query) -> Truth:
-    """Prove, then check. A label that its own checker refuses becomes "uncertain" with the checker's reason."""
+    """Prove, then check. A label that its own checker refuses becomes "uncertain" with the
+    checker's reason.
+    """
     return label_many([query])[0]
 
 
 def label_many(queries: Iterable[Query]) -> list[Truth]:
-    """`label` for each query, in one process; the checker's doubles are batched over all of them."""
+    """`label` for each query, in one process; the checker's doubles are batched over all of
+    them.
+    """
     queries = list(queries)
     truths = [prove(q) for q in queries]
     checks = check_many(zip(queries, truths))
-    return [t if c.ok else uncertain(f"the checker refused a proposed {t.label}: {c.reason}") for t, c in zip(truths, checks)]
+    return [
+        t if c.ok else uncertain(f"the checker refused a proposed {t.label}: {c.reason}")
+        for t, c in zip(truths, checks)
+    ]

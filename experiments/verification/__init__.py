@@ -4,16 +4,23 @@ from __future__ import annotations
 
 import os
 
-from ..config import load_files
-from ..store import Store
+from experiments.run.config import load_files
+from experiments.run.folder.store import Store
+
 from . import answers, cases, files, pieces, rows
 from .findings import Findings
 
 
-def verify(store: Store, ask: int | None = None, trust: bool = False, workers: int | None = None,
-           seed: int | None = None) -> Findings:
-    """Check a finished run. ask: ask the methods again about so many cases drawn by chance (-1: all).
-    trust: run the Python files that its configuration names. Writes nothing into the folder."""
+def verify(
+    store: Store,
+    ask: int | None = None,
+    trust: bool = False,
+    workers: int | None = None,
+    seed: int | None = None,
+) -> Findings:
+    """Check a finished run. ask: ask the methods again about so many cases drawn by chance (-1:
+    all). trust: run the Python files that its configuration names. Writes nothing into the folder.
+    """
     found, config = Findings(), store.config
     files.check(store, found)
     rows.name_preset(config, found)

@@ -1,4 +1,6 @@
-"""Methods asked again, in processes of their own as in a run, and compared with what is recorded."""
+"""Methods asked again, in processes of their own as in a run, and compared with what is
+recorded.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +15,13 @@ import numpy as np
 import pandas as pd
 
 from baselines import registry
+from experiments.analysis.compare import SAME_TIME
+from experiments.run import answering
+from experiments.run.config import load_files
+from experiments.run.folder.rows import cases_of
+from experiments.run.processes.pool import Task, run
+from experiments.run.progress import stage
 
-from .. import answering
-from ..compare import SAME_TIME
-from ..config import load_files
-from ..pool import Task, run
-from ..progress import stage
-from ..rows import cases_of
 from .findings import Findings
 
 
@@ -35,9 +37,11 @@ def check(config, frames, names, count: int, seed, workers, own, found: Findings
     _compared(rows, frames["observations"], found)
     if n < len(names):
         tenth = max(1, len(names) // 100)
-        found.note(f"Asked again about {n} of {len(names)} cases, drawn with --ask-seed {seed}. If "
-                   f"{tenth} cases had altered answers, this finds one with the probability "
-                   f"{chance(len(names), tenth, n):.2f}.")
+        found.note(
+            f"Asked again about {n} of {len(names)} cases, drawn with --ask-seed {seed}. If "
+            f"{tenth} cases had altered answers, this finds one with the probability "
+            f"{chance(len(names), tenth, n):.2f}."
+        )
 
 
 def chance(cases: int, altered: int, asked: int) -> float:
@@ -54,12 +58,21 @@ def _asked(config, cases, workers, own, found: Findings) -> list[dict]:
             found.note(f"{spec} was not asked again: it is no method of this package (--trust).")
             continue
         for m in methods:
-            def lost(case, loss, label=m.label):
-                return {"case": case.id, "method": label, "status": loss.status, "hit": None,
-                        "time": math.nan, "detail": loss.detail}
 
-            chunks = [cases[i:i + answering.CHUNK] for i in range(0, len(cases), answering.CHUNK)]
-            tasks += [Task(answering._open, (m.label, config), c, rows.extend, lost) for c in chunks]
+            def lost(case, loss, label=m.label):
+                return {
+                    "case": case.id,
+                    "method": label,
+                    "status": loss.status,
+                    "hit": None,
+                    "time": math.nan,
+                    "detail": loss.detail,
+                }
+
+            chunks = [cases[i : i + answering.CHUNK] for i in range(0, len(cases), answering.CHUNK)]
+            tasks += [
+                Task(answering._open, (m.label, config), c, rows.extend, lost) for c in chunks
+            ]
     total = sum(len(task.items) for task in tasks)
     seconds = config.build_seconds + config.query_seconds
     with tempfile.TemporaryDirectory() as folder, stage("ask again", total) as advance:
@@ -84,12 +97,16 @@ def _compared(rows, recorded: pd.DataFrame, found: Findings) -> None:
         if not registry.methods()[name].repeatable:
             loose[name] += 1
         else:
-            found.refuse(f"{row['case']} and {row['method']}",
-                         f"recorded {_word(then.status, then.hit, then.time)}, and asked again "
-                         f"{_word(row['status'], row['hit'], row['time'])}")
+            found.refuse(
+                f"{row['case']} and {row['method']}",
+                f"recorded {_word(then.status, then.hit, then.time)}, and asked again "
+                f"{_word(row['status'], row['hit'], row['time'])}",
+            )
     for name, n in loose.items():
-        found.note(f"{n} answers of {name} differ; its engine does not repeat itself, so that this "
-                   "proves nothing.")
+        found.note(
+            f"{n} answers of {name} differ; its engine does not repeat itself, so that this "
+            "proves nothing."
+        )
     found.notes[:] = dict.fromkeys(found.notes)
 
 

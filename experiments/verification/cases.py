@@ -11,22 +11,26 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from experiments.cases import families
+from experiments.cases.case import Case
+from experiments.run.config import load_files
+from experiments.run.folder.rows import body_row, case_row, cases_of, filled
+from experiments.run.folder.store import Store
+from experiments.run.labelling import REDRAWS, Slot
+from experiments.run.processes.pool import Task, run
+from experiments.run.progress import stage
+from experiments.truth import Truth, check_many, label
 from ofg import Body, Query
 
-from .. import scenarios
-from ..case import Case
-from ..config import load_files
-from ..labelling import REDRAWS, Slot
-from ..pool import Task, run
-from ..progress import stage
-from ..rows import body_row, case_row, cases_of, filled
-from ..store import Store
-from ..truth import Truth, check_many, label
 from .findings import Findings
 
 CHUNK = 64
 SECONDS = 300.0  # for one case with all its draws
-WIDTH, GAP = 4.0, 1e-6  # another build's prover may differ: brackets by this factor, gaps relatively
+# another build's prover may differ: brackets by this factor, gaps relatively
+WIDTH, GAP = (
+    4.0,
+    1e-6,
+)
 CLAIMS = ("label", "t_lo", "t_hi", "start", "end", "gap", "touching", "reason", "certificate")
 SAID = ("label", "start", "end", "touching", "reason")
 
@@ -34,14 +38,16 @@ SAID = ("label", "start", "end", "touching", "reason")
 def check(store: Store, config, slots, names, workers, own, found: Findings) -> None:
     """own: the configuration whose files a process may run, or None. Refuses by case."""
     items = [(name, slots[name]) for name in names]
-    chunks = [items[i:i + CHUNK] for i in range(0, len(items), CHUNK)]
+    chunks = [items[i : i + CHUNK] for i in range(0, len(items), CHUNK)]
     results = [[] for _ in chunks]
 
     def lost(item, loss):
         return {"case": item[0], "wrong": [f"checking stopped: {loss.detail}"]}
 
-    tasks = [Task(_open, (str(store.folder), config.seed), chunk, results[i].extend, lost)
-             for i, chunk in enumerate(chunks)]
+    tasks = [
+        Task(_open, (str(store.folder), config.seed), chunk, results[i].extend, lost)
+        for i, chunk in enumerate(chunks)
+    ]
     with tempfile.TemporaryDirectory() as folder, stage("check cases", len(items)) as advance:
         run(tasks, workers, SECONDS, Path(folder, "log"), advance, own and partial(load_files, own))
     _gather([result for chunk in results for result in chunk], store, found)
@@ -61,9 +67,11 @@ def _gather(results, store: Store, found: Findings) -> None:
         if row.body in names and row.name not in names[row.body]:
             found.refuse(f"body {row.body}", f"its name '{row.name}' is not the scenario's")
     if undrawn:
-        found.note(f"{len(undrawn)} cases were not drawn again, as their scenarios are not of this "
-                   f"package: {', '.join(sorted(set(undrawn)))}. Their labels were proved again of "
-                   "the recorded bodies. If you trust the Python files of this run, add --trust.")
+        found.note(
+            f"{len(undrawn)} cases were not drawn again, as their scenarios are not of this "
+            f"package: {', '.join(sorted(set(undrawn)))}. Their labels were proved again of "
+            "the recorded bodies. If you trust the Python files of this run, add --trust."
+        )
 
 
 def _open(argument):
@@ -77,7 +85,7 @@ def _open(argument):
 
 
 def _looked_at(name: str, slot: Slot, row: dict, bodies: dict, seed: int) -> dict:
-    scenario = scenarios.scenarios().get(slot.scenario)
+    scenario = families.scenarios().get(slot.scenario)
     result = {"case": name, "wrong": [], "label": str(row["label"]), "drawn": bool(scenario)}
     try:
         if scenario:
@@ -100,7 +108,9 @@ def _drawn(scenario, slot: Slot, row, bodies, seed: int, wrong: list[str]):
     for earlier in range(int(attempt)):
         truth = label(scenario.case(seed, slot.level, slot.index, earlier).query)
         if not scenario.useless(truth):
-            wrong.append(f"draw {earlier} was rejected, although its scenario accepts it: {truth.label}")
+            wrong.append(
+                f"draw {earlier} was rejected, although its scenario accepts it: {truth.label}"
+            )
     case = scenario.case(seed, slot.level, slot.index, int(attempt))
     _inputs(case, row, int(attempt), wrong)
     for side in ("a", "b"):
@@ -122,7 +132,9 @@ def _body(body: Body, row, side: str, wrong: list[str]) -> None:
         return wrong.append(f"body_{side} is not in bodies.parquet")
     for column, value in body_row(body).items():
         if column != "name" and not same(row[column], value):
-            wrong.append(f"{column} of body_{side} in bodies.parquet is not what the scenario draws")
+            wrong.append(
+                f"{column} of body_{side} in bodies.parquet is not what the scenario draws"
+            )
 
 
 def _recorded(row, bodies, wrong: list[str]) -> Query:
@@ -135,8 +147,20 @@ def _recorded(row, bodies, wrong: list[str]) -> Query:
         if body.digest != recorded["body"]:
             wrong.append("a body does not have the digest under which it is recorded")
     query = Query(query.question, *made, query.pose_a, query.pose_b, query.motion, query.motion_b)
-    _inputs(Case(row["case"], row["scenario"], row["level"], row["index"], query, case.tags,
-                 row["precision"]), row, row["attempt"], wrong)
+    _inputs(
+        Case(
+            row["case"],
+            row["scenario"],
+            row["level"],
+            row["index"],
+            query,
+            case.tags,
+            row["precision"],
+        ),
+        row,
+        row["attempt"],
+        wrong,
+    )
     return query
 
 
@@ -149,7 +173,7 @@ def _made(row) -> Body:
         return Body.convex(v, row["name"])
     pieces, first = [], 0
     for n in row["piece_vertices"]:
-        pieces.append(Body.convex(v[first:first + n]))
+        pieces.append(Body.convex(v[first : first + n]))
         first += n
     return Body.union(pieces, row["name"])
 
@@ -164,17 +188,24 @@ def _truth(row) -> Truth:
 
 
 def prove(query: Query, row, wrong: list[str]) -> None:
-    """Have the recorded truth checked, and the query labelled anew; what differs goes into wrong."""
+    """Have the recorded truth checked, and the query labelled anew; what differs goes into
+    wrong.
+    """
     truth, fresh = _truth(row), label(query)
     (verdict,) = check_many([(query, truth)])
     if not verdict.ok:
         wrong.append(f"label {truth.label} is refused: {verdict.reason}")
     if truth.label == "uncertain" != fresh.label:
-        return wrong.append(f"recorded as uncertain, but now proved {fresh.label}: a forgery, or a "
-                            "fault of the machine that recorded it")
+        return wrong.append(
+            f"recorded as uncertain, but now proved {fresh.label}: a forgery, or a "
+            "fault of the machine that recorded it"
+        )
     for claim in SAID:
         if getattr(truth, claim) != getattr(fresh, claim):
-            wrong.append(f"{claim} is recorded as {getattr(truth, claim)}, but proved to be {getattr(fresh, claim)}")
+            wrong.append(
+                f"{claim} is recorded as {getattr(truth, claim)}, but proved to be"
+                f" {getattr(fresh, claim)}"
+            )
     if truth.t_hi - truth.t_lo > WIDTH * (fresh.t_hi - fresh.t_lo) + 1e-15:
         wrong.append(f"its bracket [{truth.t_lo}, {truth.t_hi}] is wider than the prover's")
     for claim in ("gap", "t_lo", "t_hi"):

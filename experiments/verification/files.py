@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from .. import given, manifest
-from ..store import Store
+from experiments.run.folder import given, manifest
+from experiments.run.folder.store import Store
+
 from .findings import Findings
 
 

@@ -10,9 +10,10 @@ SHOWN = 40
 
 @dataclass
 class Findings:
-    """refused: one sentence for each thing that is not as it should be. notes: what was not checked,
-    or cannot be. labels: of the cases in which nothing is wrong, how many have which label; pieces:
-    the same of the cases about pieces of meshes."""
+    """refused: one sentence for each thing that is not as it should be. notes: what was not
+    checked, or cannot be. labels: of the cases in which nothing is wrong, how many have which
+    label; pieces: the same of the cases about pieces of meshes.
+    """
 
     refused: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
@@ -32,12 +33,28 @@ class Findings:
 
     def __str__(self) -> str:
         n = self.labels
-        head = (f"{n['hit'] + n['clear']} labels verified ({n['hit']} hit, {n['clear']} clear), "
-                f"{n['uncertain']} uncertain, {len(self.refused)} refused.")
+        head = (
+            f"{n['hit'] + n['clear']} labels verified ({n['hit']} hit, {n['clear']} clear), "
+            f"{n['uncertain']} uncertain, {len(self.refused)} refused."
+        )
         p = self.pieces
-        pieces = [f"{p['hit'] + p['clear']} labels of pieces verified ({p['hit']} hit, {p['clear']} "
-                  f"clear), {p['uncertain']} uncertain."] if p else []
+        pieces = (
+            [
+                f"{p['hit'] + p['clear']} labels of pieces verified ({p['hit']} hit, {p['clear']} "
+                f"clear), {p['uncertain']} uncertain."
+            ]
+            if p
+            else []
+        )
         asked = [f"{self.asked} answers asked again."] if self.asked else []
         more = len(self.refused) - SHOWN
-        return "\n".join([head, *pieces, *asked, *self.notes, *(f"refused: {r}" for r in self.refused[:SHOWN]),
-                          *([f"and {more} more refused"] if more > 0 else [])])
+        return "\n".join(
+            [
+                head,
+                *pieces,
+                *asked,
+                *self.notes,
+                *(f"refused: {r}" for r in self.refused[:SHOWN]),
+                *([f"and {more} more refused"] if more > 0 else []),
+            ]
+        )

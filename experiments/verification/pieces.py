@@ -6,11 +6,12 @@ import tempfile
 from collections import Counter
 from pathlib import Path
 
-from .. import decomposing
-from ..piece_truth import FILES
-from ..pool import Task, run
-from ..progress import stage
-from ..rows import body_row, cases_of, truth_row
+from experiments.run import decomposing
+from experiments.run.folder.rows import body_row, cases_of, truth_row
+from experiments.run.piece_truth import FILES
+from experiments.run.processes.pool import Task, run
+from experiments.run.progress import stage
+
 from .cases import CHUNK, SECONDS, prove, same
 from .findings import Findings
 
@@ -19,8 +20,10 @@ def check(config, frames, names, workers: int, found: Findings) -> None:
     """names: the cases to look at. Refuses by case and by body."""
     if "pieces" not in frames:
         if _wanted(config):
-            found.note(f"It has no {FILES[0]}, as runs had none once: its methods that decompose "
-                       "meshes are judged by the meshes.")
+            found.note(
+                f"It has no {FILES[0]}, as runs had none once: its methods that decompose "
+                "meshes are judged by the meshes."
+            )
         return
     if _wanted(config) is False:
         found.refuse(FILES[0], "no method of the configuration decomposes meshes")
@@ -63,8 +66,10 @@ def _decomposed(meshes, config, workers: int) -> dict:
     def keep(mesh):
         return lambda results: made.update({mesh.digest: results[0]})
 
-    tasks = [Task(decomposing.open_mesh, None, [mesh], keep(mesh), decomposing.lost_mesh)
-             for mesh in meshes]
+    tasks = [
+        Task(decomposing.open_mesh, None, [mesh], keep(mesh), decomposing.lost_mesh)
+        for mesh in meshes
+    ]
     _run("decompose meshes", tasks, workers, config.build_seconds)
     return made
 
@@ -85,20 +90,26 @@ def _bodies(recorded, items, found: Findings) -> None:
         if counts[digest] != 1:
             found.refuse(f"body {digest}", f"{FILES[1]} has {counts[digest]} rows of it, not 1")
         elif wrong := [c for c, v in body_row(body).items() if not same(rows[digest][c], v)]:
-            found.refuse(f"body {digest}", f"{', '.join(wrong)} in {FILES[1]} is not what it is "
-                         "decomposed into")
+            found.refuse(
+                f"body {digest}",
+                f"{', '.join(wrong)} in {FILES[1]} is not what it is decomposed into",
+            )
 
 
 def _proved(items, pieces, workers: int, found: Findings) -> None:
-    rows = {row["case"]: row for row in pieces.drop_duplicates("case", keep=False).to_dict("records")}
+    rows = {
+        row["case"]: row for row in pieces.drop_duplicates("case", keep=False).to_dict("records")
+    }
     items = [(item, rows[item.case]) for item in items if item.case in rows]
     results = []
 
     def lost(item, loss):
         return item[0].case, "uncertain", [f"checking stopped: {loss.detail}"]
 
-    tasks = [Task(_open, None, items[i:i + CHUNK], results.extend, lost)
-             for i in range(0, len(items), CHUNK)]
+    tasks = [
+        Task(_open, None, items[i : i + CHUNK], results.extend, lost)
+        for i in range(0, len(items), CHUNK)
+    ]
     _run("check pieces", tasks, workers, SECONDS)
     for name, label, wrong in results:
         for what in wrong:
@@ -113,13 +124,19 @@ def _open(_):
 
 def _looked_at(given) -> tuple[str, str, list[str]]:
     item, row = given
-    wrong = [f"{column} is not that of the pieces that its meshes are decomposed into"
-             for column, value in decomposing.place(item).items() if not same(row[column], value)]
+    wrong = [
+        f"{column} is not that of the pieces that its meshes are decomposed into"
+        for column, value in decomposing.place(item).items()
+        if not same(row[column], value)
+    ]
     try:
         if item.fault:
             wanted = truth_row(decomposing.no_pieces(item))
-            wrong += [f"{c} is recorded, but its mesh has no pieces" for c in wanted
-                      if not same(row[c], wanted[c])]
+            wrong += [
+                f"{c} is recorded, but its mesh has no pieces"
+                for c in wanted
+                if not same(row[c], wanted[c])
+            ]
         else:
             prove(item.query, row, wrong)
     except Exception as error:

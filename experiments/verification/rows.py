@@ -7,34 +7,84 @@ from collections import Counter
 import pandas as pd
 
 from baselines import registry
+from experiments.cases import families
+from experiments.run import config as configuration
+from experiments.run import piece_truth, timing
+from experiments.run.folder import given, record
+from experiments.run.folder.rows import filled
+from experiments.run.folder.store import Store
+from experiments.run.labelling import Slot
 
-from .. import config as configuration
-from .. import given, piece_truth, record, scenarios, timing
-from ..labelling import Slot
-from ..rows import filled
-from ..store import Store
 from .findings import Findings
 
-CASES = ("case", "scenario", "level", "index", "attempt", "precision", "question", "body_a", "body_b",
-         "quaternion_a", "position_a", "quaternion_b", "position_b", "displacement", "axis", "angle",
-         "about", "displacement_b", "axis_b", "angle_b", "about_b", "size", "faces", "tags", "label",
-         "t_lo", "t_hi", "start", "end", "gap", "touching", "reason", "certificate")
+CASES = (
+    "case",
+    "scenario",
+    "level",
+    "index",
+    "attempt",
+    "precision",
+    "question",
+    "body_a",
+    "body_b",
+    "quaternion_a",
+    "position_a",
+    "quaternion_b",
+    "position_b",
+    "displacement",
+    "axis",
+    "angle",
+    "about",
+    "displacement_b",
+    "axis_b",
+    "angle_b",
+    "about_b",
+    "size",
+    "faces",
+    "tags",
+    "label",
+    "t_lo",
+    "t_hi",
+    "start",
+    "end",
+    "gap",
+    "touching",
+    "reason",
+    "certificate",
+)
 BODIES = ("body", "name", "kind", "vertices", "faces", "piece_vertices", "piece_faces")
-PIECES = ("case", "body_a", "body_b", "precision", "label", "t_lo", "t_hi", "start", "end", "gap", "touching", "reason",
-          "certificate")
+PIECES = (
+    "case",
+    "body_a",
+    "body_b",
+    "precision",
+    "label",
+    "t_lo",
+    "t_hi",
+    "start",
+    "end",
+    "gap",
+    "touching",
+    "reason",
+    "certificate",
+)
 ANSWERS = ("case", "method", "status", "hit", "time", "detail")
 TIMES = ("question", "faces", "situation", "method", "case", "build_ns", "rounds_ns")
 STATUS = ("ok", "error", "timeout", "unsupported")
 
 
 def name_preset(config, found: Findings) -> None:
-    """Say which configuration of the package this is: a smaller run that agrees with itself is one."""
+    """Say which configuration of the package this is: a smaller run that agrees with itself
+    is one.
+    """
     names = [*configuration.presets(), *configuration.experiments()]
     differ = {name: config.differences(configuration.load(name)) for name in names}
     best = min(differ, key=lambda name: len(differ[name]))
     if differ[best]:
-        found.note(f"Its configuration is none of this package's; nearest is {best}, from which it "
-                   f"differs in: {', '.join(differ[best])}.")
+        found.note(
+            f"Its configuration is none of this package's; nearest is {best}, from which it "
+            f"differs in: {', '.join(differ[best])}."
+        )
     else:
         found.note(f"Its configuration is {best}, as in this package.")
 
@@ -52,7 +102,8 @@ def read(store: Store, found: Findings) -> dict[str, pd.DataFrame] | None:
             found.refuse(file, "it is missing")
             continue
         try:
-            frames[name] = store.read(file, checked=False)  # each wrong row is to be named, not the first alone
+            # each wrong row is to be named, not the first alone
+            frames[name] = store.read(file, checked=False)
         except (OSError, ValueError, TypeError) as error:
             found.refuse(file, f"it cannot be read ({given.reason(error)})")
             continue
@@ -65,15 +116,19 @@ def read(store: Store, found: Findings) -> dict[str, pd.DataFrame] | None:
             found.refuse(file, f"it lacks {', '.join(missing)}")
         if extra := [c for c in frames[name] if c not in columns]:
             found.refuse(file, f"it has columns that no run has: {', '.join(map(str, extra))}")
-    return frames if len(frames) == len(wanted) and all(
-        c in frames[name] for name, columns in wanted.items() for c in columns) else None
+    return (
+        frames
+        if len(frames) == len(wanted)
+        and all(c in frames[name] for name, columns in wanted.items() for c in columns)
+        else None
+    )
 
 
 def expected(config, cases: pd.DataFrame, found: Findings) -> dict[str, Slot]:
     """The places that the configuration asks for, by the name of their case."""
     slots = []
     for choice in config.scenarios:
-        known = scenarios.scenarios().get(choice.name)
+        known = families.scenarios().get(choice.name)
         own = cases.level[cases.scenario == choice.name].unique()
         for level in choice.levels or (known.levels if known else own):
             slots += [Slot(choice.name, float(level), i) for i in range(choice.cases)]
@@ -120,8 +175,10 @@ def _answers(config, answers: pd.DataFrame, slots, found: Findings) -> None:
         methods = [m.label for spec in config.asked for m in registry.make(spec)]
     except ValueError:
         methods = list(dict.fromkeys(answers.method))
-        found.note("It has methods of files that were not run (--trust runs them); whether a method "
-                   "of its configuration is missing was not checked.")
+        found.note(
+            "It has methods of files that were not run (--trust runs them); whether a method "
+            "of its configuration is missing was not checked."
+        )
     wanted = {(name, method): None for method in methods for name in slots}
     counts = Counter(zip(answers.case, answers.method))
     _counted("observations.parquet", counts, wanted, found)
@@ -133,7 +190,9 @@ def _answers(config, answers: pd.DataFrame, slots, found: Findings) -> None:
 
 
 def _odd(row) -> str:
-    """What no answer can be: a status that there is not, a time without a hit or outside the step."""
+    """What no answer can be: a status that there is not, a time without a hit or outside the
+    step.
+    """
     hit = None if pd.isna(row.hit) else bool(row.hit)
     if row.status not in STATUS:
         return f"the status '{row.status}' does not exist"
@@ -145,8 +204,12 @@ def _odd(row) -> str:
 
 
 def _times(config, frames, found: Findings) -> None:
-    cases = frames["cases"].drop_duplicates("case").assign(
-        situation=timing.situation_of, bin=lambda c: timing.size_of(c.faces)).set_index("case")
+    cases = (
+        frames["cases"]
+        .drop_duplicates("case")
+        .assign(situation=timing.situation_of, bin=lambda c: timing.size_of(c.faces))
+        .set_index("case")
+    )
     asked = set(frames["observations"].method)
     key = ["question", "faces", "situation", "method", "case"]
     seen = Counter(frames["timings"][key].itertuples(index=False, name=None))

@@ -1,4 +1,6 @@
-"""Every method of the registry passes the conformance suite, except for the known defects listed here."""
+"""Every method of the registry passes the conformance suite, except for the known defects listed
+here.
+"""
 
 from functools import cache
 
@@ -11,26 +13,58 @@ TOWARDS = "meets what moves towards it"
 CONTAINED = "a contained body is seen by solid methods alone"
 B_TURNS, ABOUT = "sees what B meets as it turns", "turns about the point that it is told"
 
-# (method, property): what is wrong with the engine, measured. A defect that is gone fails the test (strict).
+# (method, property): what is wrong with the engine, measured. A defect that is gone fails the test
+# (strict).
 KNOWN_DEFECTS = {
     ("fcl-ccd-mesh", HEAD_ON): "the default request misses mesh pass-throughs: 37 of 40 cubes",
-    ("fcl-ccd-convex", HEAD_ON): "with libccd it misses axis-aligned cubes head-on; GST_INDEP meets them",
-    ("fcl-advancement-mesh", HEAD_ON): "conservative advancement on meshes misses pass-throughs at any setting",
-    ("fcl-advancement-mesh", TURNS): "conservative advancement on meshes misses pass-throughs at any setting",
+    (
+        "fcl-ccd-convex",
+        HEAD_ON,
+    ): "with libccd it misses axis-aligned cubes head-on; GST_INDEP meets them",
+    (
+        "fcl-advancement-mesh",
+        HEAD_ON,
+    ): "conservative advancement on meshes misses pass-throughs at any setting",
+    (
+        "fcl-advancement-mesh",
+        TURNS,
+    ): "conservative advancement on meshes misses pass-throughs at any setting",
     ("fcl-ccd-mesh", TOWARDS): "the default request misses mesh pass-throughs, whoever moves",
     ("fcl-ccd-convex", TOWARDS): "with libccd it misses axis-aligned cubes head-on, whoever moves",
-    **{("fcl-advancement-mesh", title): "conservative advancement on meshes misses pass-throughs at any setting"
-       for title in (TOWARDS, B_TURNS, ABOUT)},
-    **{(f"bullet-{cast}-cast", CONTAINED): "it wants bodies that do not overlap at the start, as Bullet says"
-       for cast in ("subsimplex", "gjk")},
-    ("ofg", TURNS): "as the article has it, virtual edges are chords: at 170 degrees they cut through the circle",
+    **{
+        (
+            "fcl-advancement-mesh",
+            title,
+        ): "conservative advancement on meshes misses pass-throughs at any setting"
+        for title in (TOWARDS, B_TURNS, ABOUT)
+    },
+    **{
+        (
+            f"bullet-{cast}-cast",
+            CONTAINED,
+        ): "it wants bodies that do not overlap at the start, as Bullet says"
+        for cast in ("subsimplex", "gjk")
+    },
+    ("ofg", TURNS): (
+        "as the article has it, virtual edges are chords: at 170 degrees they cut through the"
+        " circle"
+    ),
     ("brute-force", TURNS): "its virtual edges are chords, as OFG's",
-    ("ofg", ABOUT): "virtual edges are chords: about a point ten lengths off the arc leaves them by more than the cube's size",
+    ("ofg", ABOUT): (
+        "virtual edges are chords: about a point ten lengths off the arc leaves them by more than"
+        " the cube's size"
+    ),
     ("brute-force", ABOUT): "its virtual edges are chords, as OFG's",
     ("ofg", HEAD_ON): "where the faces at the end of the step meet, the article's time is 1",
-    **{("ofg-article", title): "step 1 at the start pose rejects what moves fast" for title in (HEAD_ON, TOWARDS)},
+    **{
+        ("ofg-article", title): "step 1 at the start pose rejects what moves fast"
+        for title in (HEAD_ON, TOWARDS)
+    },
     ("ofg-article", TURNS): "virtual edges are chords: at 170 degrees they cut through the circle",
-    ("ofg-article", ABOUT): "virtual edges are chords: about a point ten lengths off the arc leaves them",
+    (
+        "ofg-article",
+        ABOUT,
+    ): "virtual edges are chords: about a point ten lengths off the arc leaves them",
 }
 
 # Asked with other parameters than the default, which would take minutes.

@@ -7,8 +7,15 @@ import ofg
 from baselines import registry
 from ofg import Body, Pose, Query
 
-DECOMPOSE = ["bullet-coacd", "mujoco-coacd", "ofg", "ofg-article", "bullet-coacd-substeps",
-             "mujoco-coacd-substeps", "ofg concave=all-pairs"]
+DECOMPOSE = [
+    "bullet-coacd",
+    "mujoco-coacd",
+    "ofg",
+    "ofg-article",
+    "bullet-coacd-substeps",
+    "mujoco-coacd-substeps",
+    "ofg concave=all-pairs",
+]
 KEEP = ["bullet", "fcl-mesh", "ofg concave=undivided", "ofg adaptive_k=true", "ofg repairs=all"]
 
 
@@ -31,7 +38,9 @@ def test_it_answers_about_the_pieces(ring, label):
     """A small cube at a corner of a piece that sticks out of the mesh, or is cut short of it."""
     (method,) = registry.make(label)
     pieces, size = ofg.decompose(ring), 1e-3
-    cube = Body.convex(size * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]))
+    cube = Body.convex(
+        size * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+    )
     for corner in pieces.vertices[:: len(pieces.vertices) // 20]:
         at = Pose(position=corner)
         said = [method.ready(Query("overlap", cube, body, at))().hit for body in (ring, pieces)]

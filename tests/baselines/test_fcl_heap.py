@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from baselines import fcl, registry
-from experiments.scenarios import get
+from experiments.cases.families import get
 
 NAMES = ("fcl-advancement-convex", "fcl-advancement-mesh", "fcl-naive-convex")
 LINEAR = [f"{name} heap={heap}" for name in NAMES for heap in fcl.HEAP]
@@ -23,11 +23,16 @@ def answer(spec, query):
 
 def test_fcl_answers_the_same_beside_any_other_method():
     """Unset, that memory made an answer hang on the methods that were asked before."""
-    others = [f"{name}-substeps" for name in ("fcl-convex", "bullet", "parry")
-              if not registry.available(registry.methods()[name])]
+    others = [
+        f"{name}-substeps"
+        for name in ("fcl-convex", "bullet", "parry")
+        if not registry.available(registry.methods()[name])
+    ]
     orders = [*LINEAR, *others], [*others, *reversed(LINEAR)]
-    first, again = ({(spec, i): repr(answer(spec, query))
-                     for spec in order for i, query in enumerate(TURNS)} for order in orders)
+    first, again = (
+        {(spec, i): repr(answer(spec, query)) for spec in order for i, query in enumerate(TURNS)}
+        for order in orders
+    )
     assert first == again
     assert all(registry.methods()[spec.split()[0]].repeatable for spec in LINEAR)
     assert any(first[LINEAR[0], i] != first[LINEAR[1], i] for i in range(len(TURNS)))
@@ -46,7 +51,14 @@ from test_fcl_heap import NAMES, TURNS, answer
 print([answer(f"{{name}} heap={heap}", query) for query in TURNS for name in NAMES])
 """
     tunables = f"glibc.malloc.tcache_count=0:glibc.malloc.perturb={fcl.HEAP[heap] ^ 0xFF}"
-    said = [subprocess.run([sys.executable, "-c", program, which], capture_output=True,
-                           text=True, check=True, env={**os.environ, **set_}).stdout
-            for which, set_ in (("blocks", {}), ("whole", {"GLIBC_TUNABLES": tunables}))]
+    said = [
+        subprocess.run(
+            [sys.executable, "-c", program, which],
+            capture_output=True,
+            text=True,
+            check=True,
+            env={**os.environ, **set_},
+        ).stdout
+        for which, set_ in (("blocks", {}), ("whole", {"GLIBC_TUNABLES": tunables}))
+    ]
     assert said[0] == said[1] and "True" in said[0]

@@ -39,7 +39,10 @@ def distances(query: Query, t: float) -> np.ndarray:
 
 
 @settings(max_examples=60, deadline=None)
-@given(st.sampled_from([(True, False), (False, True), (False, False)]).flatmap(queries), st.floats(0, 1))
+@given(
+    st.sampled_from([(True, False), (False, True), (False, False)]).flatmap(queries),
+    st.floats(0, 1),
+)
 def test_one_mover_asks_the_same(query, t):
     made = stated(query, movers=1, about=False)
     assert made.motion_b.rests and not made.motion.about.any()
@@ -48,7 +51,11 @@ def test_one_mover_asks_the_same(query, t):
 
 
 @settings(max_examples=60, deadline=None)
-@given(queries((True, True)), st.floats(0, 1), st.sampled_from([about_origins, lambda q: normalised(q, 1.0)]))
+@given(
+    queries((True, True)),
+    st.floats(0, 1),
+    st.sampled_from([about_origins, lambda q: normalised(q, 1.0)]),
+)
 def test_both_turning_stays_the_same(query, t, change):
     made = change(query)
     unit = made.a.size / query.a.size
@@ -71,7 +78,9 @@ def test_a_question_that_is_stated_so_already_is_left_alone():
 
 
 def test_two_turning_bodies_are_no_question_about_one():
-    query = Query("motion", body("convex"), body("mesh"), motion=Motion(angle=1), motion_b=Motion(angle=1))
+    query = Query(
+        "motion", body("convex"), body("mesh"), motion=Motion(angle=1), motion_b=Motion(angle=1)
+    )
     with pytest.raises(Unsupported, match="both bodies turn"):
         one_mover(query)
 
@@ -79,7 +88,9 @@ def test_two_turning_bodies_are_no_question_about_one():
 def test_a_shifted_body_is_made_once():
     cube = body("union")
     assert shifted(cube, (1.0, 0.0, 0.0)) is shifted(cube, (1.0, 0.0, 0.0))
-    assert (shifted(cube, (1.0, 0.0, 0.0)).pieces[0].vertices == cube.pieces[0].vertices - [1, 0, 0]).all()
+    assert (
+        shifted(cube, (1.0, 0.0, 0.0)).pieces[0].vertices == cube.pieces[0].vertices - [1, 0, 0]
+    ).all()
 
 
 class Recorder(Method):
@@ -97,7 +108,9 @@ class Recorder(Method):
 
 def test_who_does_not_declare_two_movers_is_never_given_them():
     method, cube = Recorder(), body("convex")
-    query = Query("motion", cube, cube, motion=Motion((3, 0, 0)), motion_b=Motion((1, 0, 0), angle=1.0))
+    query = Query(
+        "motion", cube, cube, motion=Motion((3, 0, 0)), motion_b=Motion((1, 0, 0), angle=1.0)
+    )
     method.ready(query)
     assert method.given.motion_b.rests and method.given.motion.displacement[0] == -2
     with pytest.raises(Unsupported, match="ready"):
@@ -108,9 +121,13 @@ def test_who_does_not_declare_two_movers_is_never_given_them():
         method.ready(Query("overlap", cube, cube))
 
 
-@pytest.mark.parametrize("name", ["bullet", "coal-convex", "drake", "fcl-convex", "ipctk", "mujoco", "parry"])
+@pytest.mark.parametrize(
+    "name", ["bullet", "coal-convex", "drake", "fcl-convex", "ipctk", "mujoco", "parry"]
+)
 def test_an_engine_that_places_both_says_what_the_relative_pose_says(name):
-    """The bar falls onto the cube that rises and turns to it; both ways of posing meet it at one sample."""
+    """The bar falls onto the cube that rises and turns to it; both ways of posing meet it at one
+    sample.
+    """
     discrete, substeps = (registry.methods()[n] for n in (name, f"{name}-substeps"))
     if reason := registry.available(substeps):
         pytest.skip(reason)

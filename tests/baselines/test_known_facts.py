@@ -1,4 +1,6 @@
-"""What is known of the engines, measured anew: facts that the adapters rely on or that the tables must show."""
+"""What is known of the engines, measured anew: facts that the adapters rely on or that the tables
+must show.
+"""
 
 import subprocess
 import sys
@@ -11,7 +13,7 @@ from hypothesis import strategies as st
 from baselines import fcl, ipctk, registry
 from baselines.conformance import body, box, sweep
 from baselines.contract import Unsupported
-from experiments.scenarios import get
+from experiments.cases.families import get
 from experiments.truth import label
 from ofg import Motion, Pose, Query
 
@@ -25,8 +27,9 @@ def cubes(gap: float) -> Query:
 
 
 def test_fcl_signed_distance_aborts_the_process_near_touching():
-    """Some pairs of cubes, face to face 1e-8 to 1e-11 deep and turned together, end the process: about 1 of 100, by the last bits of
-    the pose, so that another processor's sines choose others."""
+    """Some pairs of cubes, face to face 1e-8 to 1e-11 deep and turned together, end the process:
+    about 1 of 100, by the last bits of the pose, so that another processor's sines choose others.
+    """
     program = """
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -36,7 +39,8 @@ from ofg import Pose, Query
 method, cube = registry.make("fcl-distance")[0], body("convex")
 for seed in range(2000):
     q = Rotation.random(random_state=seed).as_quat()[[3, 0, 1, 2]]
-    at = Pose(q).apply(np.array([[2 - 10.0 ** -(8 + seed % 4), 0.3 * (seed % 2), 0.2 * (seed % 2)]]))[0]
+    gap = 10.0 ** -(8 + seed % 4)
+    at = Pose(q).apply(np.array([[2 - gap, 0.3 * (seed % 2), 0.2 * (seed % 2)]]))[0]
     method.prepare(Query("overlap", cube, cube, Pose(q, at), Pose(q)))()
 """
     death = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
@@ -48,7 +52,10 @@ def test_fcl_mesh_default_request_misses_pass_throughs():
     missed = 0
     for _ in range(40):
         a = Pose(rng.normal(size=4), (-5, *rng.uniform(-0.5, 0.5, 2)))
-        missed += not verdict("fcl-ccd-mesh", Query("translation", body("mesh"), body("mesh"), a, Pose(), Motion((10, 0, 0)))).hit
+        missed += not verdict(
+            "fcl-ccd-mesh",
+            Query("translation", body("mesh"), body("mesh"), a, Pose(), Motion((10, 0, 0))),
+        ).hit
     assert missed >= 36
 
 
@@ -70,7 +77,14 @@ def test_fcl_meets_a_plate_on_the_linear_path_with_its_own_solver():
 
 @pytest.mark.parametrize("name", ["fcl-naive-convex", "fcl-naive-mesh", "fcl-advancement-convex"])
 def test_fcl_linear_motion_does_not_depend_on_stale_memory(name):
-    query = Query("motion", body("convex"), body("convex"), Pose(position=(-5, 0, 0)), Pose(), Motion((10, 0, 0), (0, 0, 1), 1.0))
+    query = Query(
+        "motion",
+        body("convex"),
+        body("convex"),
+        Pose(position=(-5, 0, 0)),
+        Pose(),
+        Motion((10, 0, 0), (0, 0, 1), 1.0),
+    )
     ask = registry.make(name)[0].prepare(query)
     answers = set()
     for stale in (0, 0x7F, 0xFF, 0x3F):
@@ -86,8 +100,10 @@ def test_bullet_margin_shows_below_2e_3_and_is_corrected():
 
 
 def test_bullet_and_its_removal_print_nothing():
-    program = ("import gc; from baselines import registry; from baselines.conformance import overlap; "
-               "f = registry.make('bullet')[0].prepare(overlap('union', (3, 0, 0))); f(); del f; gc.collect()")
+    program = (
+        "import gc; from baselines import registry; from baselines.conformance import overlap; f ="
+        " registry.make('bullet')[0].prepare(overlap('union', (3, 0, 0))); f(); del f; gc.collect()"
+    )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
 
@@ -101,14 +117,23 @@ def test_mujoco_speculative_is_early_by_two_percent_of_the_start_distance(time, 
 
 
 @settings(max_examples=40, deadline=None)
-@given(n=st.integers(1, 40), start=st.floats(-9, -2.5), reach=st.floats(1, 12),
-       name=st.sampled_from(["fcl-convex-substeps", "fcl-mesh-substeps", "bullet-no-margin-substeps", "mujoco-substeps"]))
+@given(
+    n=st.integers(1, 40),
+    start=st.floats(-9, -2.5),
+    reach=st.floats(1, 12),
+    name=st.sampled_from(
+        ["fcl-convex-substeps", "fcl-mesh-substeps", "bullet-no-margin-substeps", "mujoco-substeps"]
+    ),
+)
 def test_substeps_answer_at_the_first_sample_inside(n, start, reach, name):
-    offsets = start + reach * np.arange(1, n + 1) / n  # cubes of 2: in each other where |offset| < 2
+    # cubes of 2: in each other where |offset| < 2
+    offsets = start + reach * np.arange(1, n + 1) / n
     inside = np.abs(offsets) < 2
     if np.any(np.abs(np.abs(offsets) - 2) < 1e-4):
         return
-    answer = verdict(f"{name} n={n}", sweep("translation", "convex", (start, 0.3, 0.2), (reach, 0, 0)))
+    answer = verdict(
+        f"{name} n={n}", sweep("translation", "convex", (start, 0.3, 0.2), (reach, 0, 0))
+    )
     assert answer.hit == inside.any()
     if answer.hit:
         assert answer.time == (np.flatnonzero(inside)[0] + 1) / n
@@ -120,13 +145,21 @@ def test_a_surface_method_misses_containment_and_a_solid_one_does_not():
     assert all(verdict(name, query).hit for name in ("fcl-convex", "bullet", "mujoco"))
 
 
-TURN = Query("motion", body("convex"), body("convex"), Pose(position=(-5, 0, 0)), Pose(),
-             Motion((10, 0, 0), (0, 0, 1), 1.0))
+TURN = Query(
+    "motion",
+    body("convex"),
+    body("convex"),
+    Pose(position=(-5, 0, 0)),
+    Pose(),
+    Motion((10, 0, 0), (0, 0, 1), 1.0),
+)
 
 
 @pytest.mark.parametrize("name", ["fcl-ccd-convex", "fcl-ccd-mesh", "ipctk-ccd"])
 def test_a_default_for_straight_paths_refuses_turns(name):
-    """Asked all the same, it answers about another motion: all misses of ipctk-ccd were of turns."""
+    """Asked all the same, it answers about another motion: all misses of ipctk-ccd were of
+    turns.
+    """
     assert registry.methods()[name].questions == {"translation"}
     if registry.available(registry.methods()[name]):
         pytest.skip("its engine is not installed")

@@ -1,4 +1,6 @@
-"""The native lane: its case file, its protocol and its errors, with the one engine that is always at hand."""
+"""The native lane: its case file, its protocol and its errors, with the one engine that is always
+at hand.
+"""
 
 import fcntl
 import os
@@ -24,7 +26,9 @@ def folder(tmp_path_factory):
     if not COMPILER:
         pytest.skip("no C++ compiler called c++")
     base = tmp_path_factory.getbasetemp()
-    to = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "native"  # one for all workers
+    to = (
+        base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    ) / "native"  # one for all workers
     (to / "plugins").mkdir(parents=True, exist_ok=True)
     with open(to / "lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
@@ -35,14 +39,47 @@ def folder(tmp_path_factory):
 
 
 def _compile(to):
-    flags = [COMPILER, "-std=c++20", "-O0", "-I", str(native.SOURCE), "-I", str(native.SOURCE.parents[1] / "ofg" / "include")]
-    subprocess.run([*flags, str(native.SOURCE / "main.cpp"), "-o", str(to / "lane"), "-ldl"], check=True)
-    subprocess.run([*flags, "-fPIC", "-shared", "-ffp-contract=off", str(native.SOURCE / "ofg.cpp"), "-o", str(to / "plugins" / "ofg.so")], check=True)
+    flags = [
+        COMPILER,
+        "-std=c++20",
+        "-O0",
+        "-I",
+        str(native.SOURCE),
+        "-I",
+        str(native.SOURCE.parents[1] / "ofg" / "include"),
+    ]
+    subprocess.run(
+        [*flags, str(native.SOURCE / "main.cpp"), "-o", str(to / "lane"), "-ldl"], check=True
+    )
+    subprocess.run(
+        [
+            *flags,
+            "-fPIC",
+            "-shared",
+            "-ffp-contract=off",
+            str(native.SOURCE / "ofg.cpp"),
+            "-o",
+            str(to / "plugins" / "ofg.so"),
+        ],
+        check=True,
+    )
 
 
 def queries() -> list[Query]:
-    turning = Query("motion", body("convex"), body("mesh"), Pose((2, 0, 0, 0.5), (-5, 0.1, 0)), Pose((1, 1, 0, 0)), Motion((10, 0, 0), (0, 0, 3), 1.0))
-    return [overlap("convex", (7, 1, 2)), overlap("convex", (0.9, 0.7, 0.5)), sweep("translation", "convex", (-5, 0.3, 0.1), (10, 0, 0)), turning]
+    turning = Query(
+        "motion",
+        body("convex"),
+        body("mesh"),
+        Pose((2, 0, 0, 0.5), (-5, 0.1, 0)),
+        Pose((1, 1, 0, 0)),
+        Motion((10, 0, 0), (0, 0, 3), 1.0),
+    )
+    return [
+        overlap("convex", (7, 1, 2)),
+        overlap("convex", (0.9, 0.7, 0.5)),
+        sweep("translation", "convex", (-5, 0.3, 0.1), (10, 0, 0)),
+        turning,
+    ]
 
 
 def test_both_lanes_say_the_same(folder):
@@ -53,7 +90,9 @@ def test_both_lanes_say_the_same(folder):
         (method,) = registry.make(label)
         expected = [method.prepare(query)() for query in asked]
         assert list(group.case) == [0, 1, 2, 3]
-        assert [bool(h) for h in group.hit] == [v.hit for v in expected] == [False, True, True, True]
+        assert (
+            [bool(h) for h in group.hit] == [v.hit for v in expected] == [False, True, True, True]
+        )
         np.testing.assert_array_equal(group.time, [v.time for v in expected])
 
 
@@ -66,7 +105,14 @@ def test_every_round_of_every_case_has_a_time(folder):
 def test_a_spoilt_case_file_is_refused(folder, tmp_path):
     def lane(content: bytes) -> str:
         (tmp_path / "cases").write_bytes(content)
-        words = [str(folder / "lane"), str(tmp_path / "cases"), str(tmp_path / "results"), "0", "1", str(folder / "plugins" / "ofg.so")]
+        words = [
+            str(folder / "lane"),
+            str(tmp_path / "cases"),
+            str(tmp_path / "results"),
+            "0",
+            "1",
+            str(folder / "plugins" / "ofg.so"),
+        ]
         outcome = subprocess.run(words, capture_output=True, text=True)
         assert outcome.returncode == 2
         return outcome.stderr
@@ -75,7 +121,9 @@ def test_a_spoilt_case_file_is_refused(folder, tmp_path):
     good = (tmp_path / "good").read_bytes()
     assert "ends too early" in lane(good[:-1])
     assert "no case file" in lane(b"x" * 100)
-    assert "names a body that is not in the file" in lane(good[:-180] + struct.pack("<I", 99) + good[-176:])
+    assert "names a body that is not in the file" in lane(
+        good[:-180] + struct.pack("<I", 99) + good[-176:]
+    )
 
 
 def test_what_the_lane_does_not_take(folder, tmp_path):

@@ -38,5 +38,10 @@ def rows_of_poses(rng, n, spread):
 
 def rows_of_motions(rng, n, length, angle):
     return np.concatenate(
-        [rng.uniform(-length, length, (n, 3)), rng.normal(size=(n, 3)), rng.uniform(-angle, angle, (n, 1))], axis=1
+        [
+            rng.uniform(-length, length, (n, 3)),
+            rng.normal(size=(n, 3)),
+            rng.uniform(-angle, angle, (n, 1)),
+        ],
+        axis=1,
     )

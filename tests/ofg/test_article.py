@@ -1,4 +1,6 @@
-"""The article's steps, plain: `ask` with accelerations gives their answers and their counts, and the readings differ as they must."""
+"""The article's steps, plain: `ask` with accelerations gives their answers and their counts, and
+the readings differ as they must.
+"""
 
 import numpy as np
 import pytest
@@ -8,7 +10,6 @@ from hypothesis import strategies as st
 import ofg
 from ofg import Body, Motion, Pose, Query
 from ofg.algorithm import ARTICLE
-
 from tests.ofg.conftest import CUBE as CORNERS
 
 CUBE = Body.convex(CORNERS, "cube")
@@ -21,7 +22,9 @@ def hull(rng, n=12):
 
 
 def union(rng):
-    return Body.union([Body.convex(hull(rng, 8).vertices * 0.5 + rng.normal(size=3)) for _ in range(3)])
+    return Body.union(
+        [Body.convex(hull(rng, 8).vertices * 0.5 + rng.normal(size=3)) for _ in range(3)]
+    )
 
 
 def query(rng, question):
@@ -30,7 +33,15 @@ def query(rng, question):
     motions = [Motion(), Motion()]
     if question != "overlap":
         angle = question == "motion"
-        motions = [Motion(rng.normal(size=3) * 2, rng.normal(size=3), angle * rng.uniform(-3, 3), rng.normal(size=3)) for _ in "ab"]
+        motions = [
+            Motion(
+                rng.normal(size=3) * 2,
+                rng.normal(size=3),
+                angle * rng.uniform(-3, 3),
+                rng.normal(size=3),
+            )
+            for _ in "ab"
+        ]
     return Query(question, *bodies, *poses, *motions)
 
 
@@ -44,15 +55,24 @@ def query(rng, question):
     broad=st.sampled_from(["start", "swept"]),
     precision=st.sampled_from(["double", "float"]),
 )
-def test_accelerations_change_no_answer_and_no_count(seed, question, k, toi, order, broad, precision):
+def test_accelerations_change_no_answer_and_no_count(
+    seed, question, k, toi, order, broad, precision
+):
     q = query(np.random.default_rng(seed), question)
     options = dict(k=k, toi=toi, order=order, broad=broad, precision=precision)
     plain, fast = ofg.article(q, **options), ofg.ask(q, **options)
-    assert (plain.hit, plain.found, plain.faces, plain.pieces) == (fast.hit, fast.found, fast.faces, fast.pieces)
+    assert (plain.hit, plain.found, plain.faces, plain.pieces) == (
+        fast.hit,
+        fast.found,
+        fast.faces,
+        fast.pieces,
+    )
     assert np.array_equal(plain.time, fast.time, equal_nan=True)
     assert [plain.counts[c] for c in COUNTED] == [fast.counts[c] for c in COUNTED]
     assert plain.counts["full_tests"] == plain.counts["face_pairs"]
-    assert plain.counts["evaluated"] == plain.counts["distances"] - pieces_compared(q) * (plain.counts["distances"] > 0)
+    assert plain.counts["evaluated"] == plain.counts["distances"] - pieces_compared(q) * (
+        plain.counts["distances"] > 0
+    )
 
 
 def pieces_compared(q):
@@ -61,42 +81,66 @@ def pieces_compared(q):
 
 
 def test_a_hit_at_an_end_has_its_faces_and_needs_no_estimate():
-    """The pair of the issue: overlap at the start, and the virtual edges met the far side on their way out, at 0.2333."""
+    """The pair of the issue: overlap at the start, and the virtual edges met the far side on their
+    way out, at 0.2333.
+    """
     unit = Body.convex(CUBE.vertices / 2)
-    q = Query("translation", unit, unit, Pose(position=(0.3, 0.2, 0.1)), Pose(), Motion((3, 0.1, 0.05)))
+    q = Query(
+        "translation", unit, unit, Pose(position=(0.3, 0.2, 0.1)), Pose(), Motion((3, 0.1, 0.05))
+    )
     for toi in ("velocity", "bisection", "halving"):
         answer = ofg.ask(q, k=12, toi=toi)
-        assert (answer.found, answer.time, answer.estimate) == ("start", 0.0, "none") and min(answer.faces) >= 0
+        assert (answer.found, answer.time, answer.estimate) == ("start", 0.0, "none") and min(
+            answer.faces
+        ) >= 0
     literal = ofg.ask(q, k=12, order="steps")
     assert literal.found == "edge-face" and literal.time == pytest.approx(0.23333, abs=1e-4)
-    back = Query("translation", unit, unit, Pose(position=(3.3, 0.3, 0.15)), Pose(), Motion((-3, -0.1, -0.05)))
+    back = Query(
+        "translation",
+        unit,
+        unit,
+        Pose(position=(3.3, 0.3, 0.15)),
+        Pose(),
+        Motion((-3, -0.1, -0.05)),
+    )
     answer = ofg.ask(back, k=12)
     assert (answer.found, answer.time) == ("end", 1.0)
 
 
 def test_the_moment_of_a_hit_that_only_the_end_shows():
     unit = Body.convex(CUBE.vertices / 2)
-    q = Query("translation", unit, unit, Pose(position=(3.0, 0.3, 0.15)), Pose(), Motion((-2.5, 0, 0)))
+    q = Query(
+        "translation", unit, unit, Pose(position=(3.0, 0.3, 0.15)), Pose(), Motion((-2.5, 0, 0))
+    )
     assert ofg.ask(q, k=12).time == 1.0
     assert ofg.ask(q, k=12, repairs="end-moment").time == pytest.approx(0.8, abs=2e-6)
     assert ofg.ask(q, k=12, repairs="end-moment").found == "end"
 
 
 def test_halving_goes_forward_only():
-    """1/2, 3/4, 7/8, ...: a body that is in the wall between two of these moments is never seen, and the hit has no time."""
+    """1/2, 3/4, 7/8, ...: a body that is in the wall between two of these moments is never seen,
+    and the hit has no time.
+    """
+
     def through(start):
-        return Query("translation", CUBE, WALL, Pose(position=(0, 0, start)), Pose(), Motion((0, 0, -16)))
+        return Query(
+            "translation", CUBE, WALL, Pose(position=(0, 0, start)), Pose(), Motion((0, 0, -16))
+        )
 
     assert ofg.ask(through(8.0), k=12, toi="halving").time == 0.5
     assert ofg.ask(through(12.0), k=12, toi="halving").time == 0.75
     missed = ofg.ask(through(5.0), k=12, toi="halving", iterations=20)
     assert missed.hit and np.isnan(missed.time)
-    assert ofg.ask(through(5.0), k=12, toi="bisection").time == pytest.approx((5 - 1.01) / 16, abs=1e-5)
+    assert ofg.ask(through(5.0), k=12, toi="bisection").time == pytest.approx(
+        (5 - 1.01) / 16, abs=1e-5
+    )
 
 
 def test_pieces_are_chosen_over_time_by_a_repair():
     """A flies past: at the start the near piece of B is chosen, and A meets the far one."""
-    b = Body.union([Body.convex(CUBE.vertices * 0.5 + [0, 0, -3]), Body.convex(CUBE.vertices + [8, 0.3, 0.2])])
+    b = Body.union(
+        [Body.convex(CUBE.vertices * 0.5 + [0, 0, -3]), Body.convex(CUBE.vertices + [8, 0.3, 0.2])]
+    )
     q = Query("translation", CUBE, b, Pose(position=(0, 0, 0)), Pose(), Motion((16, 0, 0)))
     assert not ofg.ask(q, k=12).hit
     found = ofg.ask(q, k=12, repairs="pieces-over-time")

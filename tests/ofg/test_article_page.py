@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments import scenarios
+from experiments.cases import families
 from ofg import REPAIRS
 from ofg.options import core_options
 
@@ -43,4 +43,4 @@ def test_its_links_figures_and_scenarios_are_there():
     links = re.findall(r"\]\(([^)]+)\)", PAGE)
     assert len(links) > 12 and all((OFG / link).is_file() for link in links)
     named = set(re.findall(r"`(article_\w+)`", PAGE))
-    assert named == {name for name in scenarios.scenarios() if name.startswith("article_")}
+    assert named == {name for name in families.scenarios() if name.startswith("article_")}

@@ -1,4 +1,6 @@
-"""At k no less than the number of faces OFG is the test of all pairs: on random pairs, and on what hypothesis finds."""
+"""At k no less than the number of faces OFG is the test of all pairs: on random pairs, and on what
+hypothesis finds.
+"""
 
 import numpy as np
 import pytest
@@ -7,7 +9,6 @@ from hypothesis import strategies as st
 
 import ofg
 from ofg import Body
-
 from tests.ofg.conftest import rows_of_motions, rows_of_poses
 
 ALL = 10**6
@@ -29,7 +30,11 @@ def test_sweep_equals_all_virtual_edges_and_faces(hulls, angle):
     rng = np.random.default_rng(3)
     hits = tunnels = 0
     for a, b in zip(hulls, hulls[3:] + hulls[:3]):
-        pa, pb, m = rows_of_poses(rng, 100, 3), rows_of_poses(rng, 100, 0), rows_of_motions(rng, 100, 6, angle)
+        pa, pb, m = (
+            rows_of_poses(rng, 100, 3),
+            rows_of_poses(rng, 100, 0),
+            rows_of_motions(rng, 100, 6, angle),
+        )
         got = ofg.sweep_many(a, b, pa, pb, m, k=ALL, earliest=True)
         want = ofg.brute_force_many(a, b, pa, pb, m)
         assert np.array_equal(got.hit, want.hit)
@@ -45,15 +50,23 @@ point = st.tuples(coordinate, coordinate, coordinate)
 
 
 @settings(max_examples=150, deadline=None)
-@given(st.lists(point, min_size=4, max_size=12, unique=True), st.lists(point, min_size=4, max_size=12, unique=True), point)
+@given(
+    st.lists(point, min_size=4, max_size=12, unique=True),
+    st.lists(point, min_size=4, max_size=12, unique=True),
+    point,
+)
 def test_discrete_equals_all_pairs_on_small_integers(a, b, offset):
-    """Integers make exact touching, shared planes and thin hulls common; the answer is the same there too."""
+    """Integers make exact touching, shared planes and thin hulls common; the answer is the same
+    there too.
+    """
     try:
         a, b = Body.convex(np.array(a, float)), Body.convex(np.array(b, float))
     except ofg.BodyError:
         return
     pose = ofg.Pose(position=offset)
-    assert ofg.discrete(a, b, pose, k=ALL).hit == ofg.brute_force(ofg.Query("overlap", a, b, pose)).hit
+    assert (
+        ofg.discrete(a, b, pose, k=ALL).hit == ofg.brute_force(ofg.Query("overlap", a, b, pose)).hit
+    )
 
 
 def test_k_below_the_number_of_faces_misses_and_never_invents(hulls):
@@ -64,14 +77,19 @@ def test_k_below_the_number_of_faces_misses_and_never_invents(hulls):
         missed[k] = 0
         for a, b in zip(hulls, hulls[1:]):
             pa, pb = rows_of_poses(rng, 200, 0), rows_of_poses(rng, 200, 0.8)
-            got, want = ofg.discrete_many(a, b, pa, pb, k=k).hit, ofg.brute_force_many(a, b, pa, pb).hit
+            got, want = (
+                ofg.discrete_many(a, b, pa, pb, k=k).hit,
+                ofg.brute_force_many(a, b, pa, pb).hit,
+            )
             assert not (got & ~want).any()
             missed[k] += (want & ~got).sum()
     assert missed[1] > missed[4] > missed[16]
 
 
 def test_adaptive_k_finds_all_at_any_k(hulls):
-    """No face that could meet the other body is left out, so one face to start from is as good as all."""
+    """No face that could meet the other body is left out, so one face to start from is as good as
+    all.
+    """
     rng = np.random.default_rng(6)
     for nearest in ("centroid", "point-triangle"):
         for a, b in zip(hulls, hulls[1:]):
@@ -93,6 +111,12 @@ def test_adaptive_k_sweeps_find_all_at_any_k(hulls, angle, times):
         arc_tolerance=0.01,
     )
     for a, b in zip(hulls[:6], hulls[3:]):
-        pa, pb, m = rows_of_poses(rng, 50, 3), rows_of_poses(rng, 50, 0), rows_of_motions(rng, 50, 6, angle)
+        pa, pb, m = (
+            rows_of_poses(rng, 50, 3),
+            rows_of_poses(rng, 50, 0),
+            rows_of_motions(rng, 50, 6, angle),
+        )
         got, want = (ofg.sweep_many(a, b, pa, pb, m, k=k, **options) for k in (1, ALL))
-        assert np.array_equal(got.hit, want.hit) and np.allclose(got.time, want.time, rtol=0, atol=1e-9, equal_nan=True)
+        assert np.array_equal(got.hit, want.hit) and np.allclose(
+            got.time, want.time, rtol=0, atol=1e-9, equal_nan=True
+        )

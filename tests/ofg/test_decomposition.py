@@ -18,7 +18,9 @@ def hook():
     cap = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]])
     n = len(outline)
     vertices = np.concatenate([np.c_[outline, np.zeros(n)], np.c_[outline, np.ones(n)]])
-    sides = [[i, (i + 1) % n, n + (i + 1) % n] for i in range(n)] + [[i, n + (i + 1) % n, n + i] for i in range(n)]
+    sides = [[i, (i + 1) % n, n + (i + 1) % n] for i in range(n)] + [
+        [i, n + (i + 1) % n, n + i] for i in range(n)
+    ]
     return Body.mesh(vertices, np.concatenate([cap[:, ::-1], cap + n, sides]), "hook")
 
 
@@ -28,9 +30,12 @@ def test_pieces_are_kept_by_content_and_seed(hook, tmp_path, monkeypatch):
     files = list(tmp_path.iterdir())
     assert len(files) == 1 and first.kind == "union" and len(first.pieces) >= 2
     written = files[0].stat().st_mtime_ns
-    assert ofg.decompose(Body.mesh(hook.vertices, hook.faces, "another name")).digest == first.digest
+    assert (
+        ofg.decompose(Body.mesh(hook.vertices, hook.faces, "another name")).digest == first.digest
+    )
     assert files[0].stat().st_mtime_ns == written
-    files[0].write_bytes(files[0].read_bytes()[:40])  # cut short: made anew, and equal, because CoACD is deterministic by seed
+    # cut short: made anew, and equal, because CoACD is deterministic by seed
+    files[0].write_bytes(files[0].read_bytes()[:40])
     assert ofg.decompose(hook).digest == first.digest
     ofg.decompose(hook, seed=1)
     assert len(list(tmp_path.iterdir())) == 2
@@ -82,11 +87,14 @@ def test_it_ends_after_the_time_given_also_in_a_daemon(hook, tmp_path, monkeypat
     assert process.exitcode == 0 and len(list(tmp_path.iterdir())) == 1
 
 
-@pytest.mark.parametrize("pieces, words", [
-    ([CUBE], "volume of CoACD's pieces is 0.50"),
-    ([CUBE, CUBE], "leave out shell 2"),
-    ([CUBE * 3], "another body"),
-])
+@pytest.mark.parametrize(
+    "pieces, words",
+    [
+        ([CUBE], "volume of CoACD's pieces is 0.50"),
+        ([CUBE, CUBE], "leave out shell 2"),
+        ([CUBE * 3], "another body"),
+    ],
+)
 def test_pieces_that_are_another_body_are_an_error(tmp_path, monkeypatch, pieces, words):
     """CoACD may drop a shell without a word."""
     monkeypatch.setenv("OFG_CACHE", str(tmp_path))
@@ -114,8 +122,13 @@ def test_a_convex_body_is_its_own_decomposition(cube):
 
 
 def test_the_wrong_piece_is_what_the_object_level_gets_wrong(cube):
-    """A small body in the hook of another is nearest, by centres, to one piece and touches the other."""
-    near, far = Body.convex(cube.vertices * 0.5), Body.convex(cube.vertices * (4, 0.2, 0.2) + (5, 0, 2))
+    """A small body in the hook of another is nearest, by centres, to one piece and touches the
+    other.
+    """
+    near, far = (
+        Body.convex(cube.vertices * 0.5),
+        Body.convex(cube.vertices * (4, 0.2, 0.2) + (5, 0, 2)),
+    )
     union = Body.union([near, far])
     probe, pose = Body.convex(cube.vertices * 0.25), Pose(position=(1.3, 0, 1.7))
     assert not ofg.discrete(probe, union, pose)

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 import ofg
 from ofg import Body, Motion, Pose
-
 from tests.ofg.conftest import CUBE, rows_of_motions, rows_of_poses
 
 CODES = ("nothing", "start", "end", "edge-face", "face-edge", "edge-edge", "inside", "within")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ofg
-from experiments.truth import _native
+from experiments.truth.prove import _native
 from ofg import Body, _core
 
 CUBE = Body.convex(np.array(list(itertools.product((0.0, 1.0), repeat=3))))
@@ -31,7 +31,11 @@ def test_a_malformed_body_is_refused(what):
     """The prover's binding checked nothing, and died."""
     v, f = BAD[what]
     f = f if f.dtype == float else f.astype(np.int32)
-    for make in (lambda: _core.Solid(v, f, False, [], []), lambda: _core.Solid(V, F, False, [v], [f]), lambda: _native.Solid.of_mesh(v, f)):
+    for make in (
+        lambda: _core.Solid(v, f, False, [], []),
+        lambda: _core.Solid(V, F, False, [v], [f]),
+        lambda: _native.Solid.of_mesh(v, f),
+    ):
         with pytest.raises((ValueError, TypeError)):
             make()
 
@@ -42,7 +46,12 @@ def test_the_prover_refuses_what_is_no_body_no_pose_and_no_time():
     for pieces in ([], [V[:0]], [np.full((4, 3), np.nan)]):
         with pytest.raises(ValueError):
             _native.Solid.of_pieces(pieces)
-    for q, p, theta in (([0] * 4, [0] * 3, 0.0), ([1, 0, 0, np.nan], [0] * 3, 0.0), ([1, 0, 0, 0], [np.inf, 0, 0], 0.0), ([1, 0, 0, 0], [0] * 3, np.nan)):
+    for q, p, theta in (
+        ([0] * 4, [0] * 3, 0.0),
+        ([1, 0, 0, np.nan], [0] * 3, 0.0),
+        ([1, 0, 0, 0], [np.inf, 0, 0], 0.0),
+        ([1, 0, 0, 0], [0] * 3, np.nan),
+    ):
         with pytest.raises(ValueError):
             _native.Mover(q, p, [0] * 3, [0, 0, 1], theta, [0] * 3)
     pair = _native.Pair(still, still)
@@ -55,15 +64,26 @@ def asked(poses=None, motions=None, single=False, threads=1, solid=None):
     solid = solid or _core.Solid(V, F, True, [], [])
     poses = np.array([[1.0, 0, 0, 0, 0, 0, 0]]) if poses is None else poses
     motions = np.array([[0.0, 0, 0, 0, 0, 1, 0, 0, 0, 0]]) if motions is None else motions
-    return _core.ask_many(solid, solid, poses, poses, motions, motions, _core.Options(), 0, True, single, threads)
+    return _core.ask_many(
+        solid, solid, poses, poses, motions, motions, _core.Options(), 0, True, single, threads
+    )
 
 
 def test_the_core_refuses_poses_motions_and_threads_out_of_range():
     assert asked()[0].all()
-    for poses in ([[0.0] * 7], [[1e301, 0, 0, 0, 0, 0, 0]], [[1, 0, 0, 0, 1e61, 0, 0]], [[1, 0, 0, 0, np.nan, 0, 0]]):
+    for poses in (
+        [[0.0] * 7],
+        [[1e301, 0, 0, 0, 0, 0, 0]],
+        [[1, 0, 0, 0, 1e61, 0, 0]],
+        [[1, 0, 0, 0, np.nan, 0, 0]],
+    ):
         with pytest.raises(ValueError):
             asked(poses=np.array(poses, float))
-    for motions in ([[1e61, 0, 0, 0, 0, 1, 0, 0, 0, 0]], [[0, 0, 0, 0, 0, 0, 1, 0, 0, 0]], [[0, 0, 0, 0, 0, 1, 1e10, 0, 0, 0]]):
+    for motions in (
+        [[1e61, 0, 0, 0, 0, 1, 0, 0, 0, 0]],
+        [[0, 0, 0, 0, 0, 0, 1, 0, 0, 0]],
+        [[0, 0, 0, 0, 0, 1, 1e10, 0, 0, 0]],
+    ):
         with pytest.raises(ValueError):
             asked(motions=np.array(motions, float))
     for threads in (0, -1, 257, 2000, 2**31 - 1):
@@ -86,11 +106,21 @@ def test_threads_are_a_whole_number_from_1_to_256(threads):
 
 
 def test_pieces_larger_than_their_whole_find_room():
-    """Room was made for pairs of pieces, and none where one body had no pieces: a piece larger than its whole wrote past it."""
+    """Room was made for pairs of pieces, and none where one body had no pieces: a piece larger than
+    its whole wrote past it.
+    """
     points = np.random.default_rng(1).normal(size=(20_000, 3))
     ball = Body.convex(points / np.linalg.norm(points, axis=1)[:, None])
-    odd, plain = _core.Solid(V, F, False, [ball.vertices], [ball.faces]), _core.Solid(V, F, False, [], [])
-    poses, motions = np.array([[1.0, 0, 0, 0, 0, 0, 0]]), np.array([[0.1, 0, 0, 0, 0, 1, 0.5, 0, 0, 0]])
+    odd, plain = (
+        _core.Solid(V, F, False, [ball.vertices], [ball.faces]),
+        _core.Solid(V, F, False, [], []),
+    )
+    poses, motions = (
+        np.array([[1.0, 0, 0, 0, 0, 0, 0]]),
+        np.array([[0.1, 0, 0, 0, 0, 1, 0.5, 0, 0, 0]]),
+    )
     options = _core.Options()
     options.k = 10**6
-    assert _core.ask_many(odd, plain, poses, poses, motions, motions, options, 0, True, False, 1)[0].shape == (1,)
+    assert _core.ask_many(odd, plain, poses, poses, motions, motions, options, 0, True, False, 1)[
+        0
+    ].shape == (1,)

@@ -201,8 +201,10 @@ def test_packed_files_are_read(tmp_path):
     (tmp_path / "a.stl.gz").write_bytes(gzip.compress(stl(SOUP)))
     (tmp_path / "a.obj.bz2").write_bytes(bz2.compress(obj(CUBE)))
     with zipfile.ZipFile(tmp_path / "a.zip", "w") as z:
-        z.writestr("readme.txt", "x"), z.writestr("m/a.stl", stl(SOUP)), z.writestr(
-            "m/b.stl", stl(SOUP + [9, 0, 0])
+        (
+            z.writestr("readme.txt", "x"),
+            z.writestr("m/a.stl", stl(SOUP)),
+            z.writestr("m/b.stl", stl(SOUP + [9, 0, 0])),
         )
     assert (
         Body.from_file(tmp_path / "a.stl.gz").volume

@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 
 import ofg
 from ofg import Body, Motion, Pose, Query, _core
-
 from tests.ofg.conftest import CUBE, rows_of_motions, rows_of_poses
 
 ALL = 10**6
@@ -100,7 +99,8 @@ def test_a_turn_about_a_point_is_a_turn_about_the_origin_of_a_frame_put_there(se
             ofg.ask(Query("motion", a, b, pa, pb, ma, mb), **options),
         )
         assert one.hit == other.hit
-        # Without repairs the first hit in the order of the faces is taken, and the hulls are made anew.
+        # Without repairs the first hit in the order of the faces is taken, and the hulls are made
+        # anew.
         if options != {"k": 8}:
             assert np.isclose(one.time, other.time, rtol=0, atol=2e-5, equal_nan=True)
 

@@ -1,4 +1,6 @@
-"""The headers as an engine programmer uses them: the example builds and runs, and no query allocates."""
+"""The headers as an engine programmer uses them: the example builds and runs, and no query
+allocates.
+"""
 
 import shutil
 import subprocess
@@ -18,22 +20,31 @@ def build_and_run(source: Path, target: str, folder: Path) -> str:
     ):
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stdout + done.stderr
-    return subprocess.run([folder / target], capture_output=True, text=True, check=True, timeout=60).stdout
+    return subprocess.run(
+        [folder / target], capture_output=True, text=True, check=True, timeout=60
+    ).stdout
 
 
 @pytest.mark.skipif(CMAKE is None, reason="cmake is not installed: pip install cmake")
 def test_the_example_builds_without_python_and_runs(tmp_path):
     now, written, repaired = build_and_run(ROOT / "ofg/examples", "example", tmp_path).splitlines()
-    assert now == "now: clear" and written.startswith("step: hit at") and repaired.startswith("step: hit at")
-    # In the article the virtual edges are chords, so the rod is in the wall before it is said to be; the repaired time is checked by
-    # hand: the rod's half-length 2 and half-width 0.1 reach the wall's face, x = -0.05, first with a corner.
+    assert (
+        now == "now: clear"
+        and written.startswith("step: hit at")
+        and repaired.startswith("step: hit at")
+    )
+    # In the article the virtual edges are chords, so the rod is in the wall before it is said to
+    # be; the repaired time is checked by hand: the rod's half-length 2 and half-width 0.1 reach the
+    # wall's face, x = -0.05, first with a corner.
     times = [float(line.split()[3].rstrip(",")) for line in (written, repaired)]
     assert 0 < times[1] <= times[0] < 1
     assert first_contact() == pytest.approx(times[1], abs=1e-6)
 
 
 def first_contact() -> float:
-    """The first time at which a corner of the example's rod is at x = -0.05, by bisection on a fine grid."""
+    """The first time at which a corner of the example's rod is at x = -0.05, by bisection on a fine
+    grid.
+    """
     import numpy as np
 
     def reach(t):

@@ -77,7 +77,10 @@ def test_every_repair_is_a_switch_of_its_own():
     for name in REPAIRS:
         alone = core_options(repairs=name)
         changed = [f for f in fields if getattr(alone, f) != getattr(article, f)]
-        assert len(changed) == (0 if name == "swept-spheres" else 1), name  # swept spheres are the default reading of step 1
+        # swept spheres are the default reading of step 1
+        assert len(changed) == (0 if name == "swept-spheres" else 1), name
         all_but = core_options(repairs=f"all-but-{name}")
-        assert sum(getattr(all_but, f) != getattr(core_options(repairs="all"), f) for f in fields) == 1, name
+        assert (
+            sum(getattr(all_but, f) != getattr(core_options(repairs="all"), f) for f in fields) == 1
+        ), name
     assert repair_options("arcs+containment") == {"arc_tolerance": 1e-6, "containment": True}

@@ -78,6 +78,7 @@ def test_a_folder_that_cannot_be_written_costs_one_warning(mesh, tmp_path, monke
 
 def test_decomposing_needs_no_folder_of_temporary_files(mesh, monkeypatch):
     """A full TMPDIR was an error of the engine, and a kill left a folder there."""
+
     def full(*_, **__):
         raise OSError(28, "No space left on device")
 

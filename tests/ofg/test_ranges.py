@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 import ofg
 from ofg import Body, Motion, Pose
-
 from tests.ofg.conftest import CUBE, rows_of_poses
 
 exponents = st.integers(-990, 990)
@@ -71,9 +70,11 @@ def test_bodies_of_any_supported_size(size):
         assert not ofg.discrete(
             cube,
             cube,
-            Pose(position=(2.1 * size, 0, 0))
-            if size < 1e59
-            else Pose(position=(0.9e60, 0.9e60, 0.9e60)),
+            (
+                Pose(position=(2.1 * size, 0, 0))
+                if size < 1e59
+                else Pose(position=(0.9e60, 0.9e60, 0.9e60))
+            ),
             Pose(position=(-0.9e60 * (size > 1e59), 0, 0)),
             **options,
         )

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 import ofg
 from ofg import Body, _core
-
 from tests.ofg.conftest import rows_of_poses
 
 FIELDS = ("hit", "time", "found", "faces", "pieces", "counts")

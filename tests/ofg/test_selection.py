@@ -10,7 +10,9 @@ from ofg import Body, Pose
 
 @pytest.mark.parametrize("k", [1, 8, 16, 40])
 def test_point_triangle_selects_what_a_full_sort_selects(k):
-    """Long and short faces mixed. The first face of A that can be told from an answer is the nearest: the row of the first hit."""
+    """Long and short faces mixed. The first face of A that can be told from an answer is the
+    nearest: the row of the first hit.
+    """
     rng = np.random.default_rng(1)
     stretched = Body.convex(rng.normal(size=(120, 3)) * (5, 1, 0.2))
     ball = Body.from_trimesh(trimesh.creation.icosphere(subdivisions=2))

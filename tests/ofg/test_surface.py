@@ -1,11 +1,11 @@
 """Closed surfaces: what balances, what cancels, what bounds nothing; each fault with its cause."""
 
 import warnings
+from fractions import Fraction
 
 import numpy as np
 import pytest
 import trimesh
-from fractions import Fraction
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

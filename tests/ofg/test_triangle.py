@@ -1,4 +1,6 @@
-"""Triangle against triangle: against exact rational arithmetic, and on the shapes that break such tests."""
+"""Triangle against triangle: against exact rational arithmetic, and on the shapes that break such
+tests.
+"""
 
 import itertools
 from fractions import Fraction
@@ -16,9 +18,11 @@ def meets(s, t):
 
 
 def exact(s, t):
-    """Closed triangles share a point, by exact linear programming in the barycentric coordinates: s.lambda = t.mu has a solution.
+    """Closed triangles share a point, by exact linear programming in the barycentric coordinates:
+    s.lambda = t.mu has a solution.
 
-    The feasible set is a polytope in six unknowns with five equations; it is non-empty iff a basic solution is feasible.
+    The feasible set is a polytope in six unknowns with five equations; it is non-empty iff a basic
+    solution is feasible.
     """
     s, t = [[Fraction(int(x)) for x in p] for p in s], [[Fraction(int(x)) for x in p] for p in t]
     columns = [[*p, 1, 0] for p in s] + [[*(-x for x in p), 0, 1] for p in t]
@@ -54,7 +58,9 @@ triangle = st.tuples(corner, corner, corner)
 @settings(max_examples=400, deadline=None)
 @given(triangle, triangle)
 def test_agrees_with_exact_arithmetic_on_small_integers(s, t):
-    """In a grid of nine values a side touching, coplanar, collinear and doubled corners all come up."""
+    """In a grid of nine values a side touching, coplanar, collinear and doubled corners all come
+    up.
+    """
     assert meets(s, t) == exact(s, t)
 
 
@@ -77,17 +83,57 @@ def test_order_of_corners_and_of_triangles_changes_nothing(s, t, i, j):
     "name, s, t, want",
     [
         ("the same", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 0, 0), (1, 0, 0), (0, 1, 0)], True),
-        ("one corner shared", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 0, 0), (-1, 0, 1), (0, -1, 1)], True),
-        ("one inside the other, one plane", [(0, 0, 0), (9, 0, 0), (0, 9, 0)], [(1, 1, 0), (2, 1, 0), (1, 2, 0)], True),
-        ("parallel planes", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 0, 1e-9), (1, 0, 1e-9), (0, 1, 1e-9)], False),
-        ("edge grazes from above", [(0, 0, 0), (4, 0, 0), (0, 4, 0)], [(1, 1, 1e-12), (2, 1, 1e-12), (1, 1, 1)], False),
-        ("edge passes just below", [(0, 0, 0), (4, 0, 0), (0, 4, 0)], [(1, 1, -1e-12), (2, 1, 1e-12), (1, 1, 1)], True),
+        (
+            "one corner shared",
+            [(0, 0, 0), (1, 0, 0), (0, 1, 0)],
+            [(0, 0, 0), (-1, 0, 1), (0, -1, 1)],
+            True,
+        ),
+        (
+            "one inside the other, one plane",
+            [(0, 0, 0), (9, 0, 0), (0, 9, 0)],
+            [(1, 1, 0), (2, 1, 0), (1, 2, 0)],
+            True,
+        ),
+        (
+            "parallel planes",
+            [(0, 0, 0), (1, 0, 0), (0, 1, 0)],
+            [(0, 0, 1e-9), (1, 0, 1e-9), (0, 1, 1e-9)],
+            False,
+        ),
+        (
+            "edge grazes from above",
+            [(0, 0, 0), (4, 0, 0), (0, 4, 0)],
+            [(1, 1, 1e-12), (2, 1, 1e-12), (1, 1, 1)],
+            False,
+        ),
+        (
+            "edge passes just below",
+            [(0, 0, 0), (4, 0, 0), (0, 4, 0)],
+            [(1, 1, -1e-12), (2, 1, 1e-12), (1, 1, 1)],
+            True,
+        ),
         ("point on a face", [(1, 1, 0)] * 3, [(0, 0, 0), (4, 0, 0), (0, 4, 0)], True),
         ("point off a face", [(1, 1, 1e-9)] * 3, [(0, 0, 0), (4, 0, 0), (0, 4, 0)], False),
         ("two points", [(0, 0, 0)] * 3, [(0, 0, 1)] * 3, False),
-        ("segments cross", [(-1, 0, 0), (1, 0, 0), (0, 0, 0)], [(0, -1, 0), (0, 1, 0), (0, 0, 0)], True),
-        ("segments in one line, apart", [(0, 0, 0), (1, 0, 0), (0.5, 0, 0)], [(2, 0, 0), (3, 0, 0), (2.5, 0, 0)], False),
-        ("parallel segments", [(0, 0, 0), (1, 0, 0), (0.5, 0, 0)], [(0, 1, 0), (1, 1, 0), (0.5, 1, 0)], False),
+        (
+            "segments cross",
+            [(-1, 0, 0), (1, 0, 0), (0, 0, 0)],
+            [(0, -1, 0), (0, 1, 0), (0, 0, 0)],
+            True,
+        ),
+        (
+            "segments in one line, apart",
+            [(0, 0, 0), (1, 0, 0), (0.5, 0, 0)],
+            [(2, 0, 0), (3, 0, 0), (2.5, 0, 0)],
+            False,
+        ),
+        (
+            "parallel segments",
+            [(0, 0, 0), (1, 0, 0), (0.5, 0, 0)],
+            [(0, 1, 0), (1, 1, 0), (0.5, 1, 0)],
+            False,
+        ),
         (
             "needles in one plane, apart",
             [(0, 0, 0), (1, 0, 0), (0.5, 1e-17, 0)],

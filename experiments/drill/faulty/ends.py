@@ -75,7 +75,8 @@ def allocates_without_end(query, call):
         raise MemoryError
     kept, size = [], 1 << 26
     while len(kept) * size < ENOUGH:
-        kept.append(np.empty(size, np.uint8))  # a limit counts it; the machine does not: no page is touched
+        # a limit counts it; the machine does not: no page is touched
+        kept.append(np.empty(size, np.uint8))
     raise RuntimeError("nothing stopped me")
 
 

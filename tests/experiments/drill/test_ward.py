@@ -30,15 +30,18 @@ GOOD = _rows("good", "ok", "", True)
 ILL = _rows(KIND.name, "error", "returned NoneType, not a Verdict", None)
 
 
-@pytest.mark.parametrize("rows, text, why", [
-    (pd.concat([GOOD, ILL]), WARNING, ""),
-    (pd.concat([_rows("good", "ok", "", False), ILL]), WARNING, "good methods have changed"),
-    (pd.concat([GOOD, ILL[:1]]), WARNING, "1 rows for 2 cases"),
-    (pd.concat([GOOD, _rows(KIND.name, "ok", "", True)]), WARNING, "is 'ok'"),
-    (pd.concat([GOOD, _rows(KIND.name, "error", " ", None)]), WARNING, "for the reason ' '"),
-    (pd.concat([GOOD, _rows(KIND.name, "error", "x" * 2000, None)]), WARNING, "for the reason"),
-    (pd.concat([GOOD, ILL]), "faulty-returns-none  0/0", "no warning names it"),
-])
+@pytest.mark.parametrize(
+    "rows, text, why",
+    [
+        (pd.concat([GOOD, ILL]), WARNING, ""),
+        (pd.concat([_rows("good", "ok", "", False), ILL]), WARNING, "good methods have changed"),
+        (pd.concat([GOOD, ILL[:1]]), WARNING, "1 rows for 2 cases"),
+        (pd.concat([GOOD, _rows(KIND.name, "ok", "", True)]), WARNING, "is 'ok'"),
+        (pd.concat([GOOD, _rows(KIND.name, "error", " ", None)]), WARNING, "for the reason ' '"),
+        (pd.concat([GOOD, _rows(KIND.name, "error", "x" * 2000, None)]), WARNING, "for the reason"),
+        (pd.concat([GOOD, ILL]), "faulty-returns-none  0/0", "no warning names it"),
+    ],
+)
 def test_what_is_wrong_is_said(rows, text, why, tmp_path):
     healthy = _run(tmp_path / "healthy", GOOD)
     one = ward.Ward(Bench((), tmp_path / "none.toml"), healthy)

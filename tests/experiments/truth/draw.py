@@ -19,7 +19,10 @@ def hull(rng, n=12, scale=1.0) -> Body:
 
 
 def convex_query(rng, question: str, a: Body | None = None, b: Body | None = None) -> Query:
-    a, b = a or hull(rng, int(rng.integers(4, 30))), b or hull(rng, int(rng.integers(4, 30)), rng.choice([0.1, 1.0]))
+    a, b = (
+        a or hull(rng, int(rng.integers(4, 30))),
+        b or hull(rng, int(rng.integers(4, 30)), rng.choice([0.1, 1.0])),
+    )
     away = rng.normal(size=3)
     away /= np.linalg.norm(away)
     reach = a.radius + b.radius
@@ -29,24 +32,34 @@ def convex_query(rng, question: str, a: Body | None = None, b: Body | None = Non
     if question != "overlap":
         angle = float(np.float32(rng.uniform(-6, 6))) if question == "motion" else 0.0
         motion = Motion(
-            single((away + 0.3 * rng.normal(size=3)) * rng.uniform(0.2, 3) * reach), single(rng.normal(size=3)), angle
+            single((away + 0.3 * rng.normal(size=3)) * rng.uniform(0.2, 3) * reach),
+            single(rng.normal(size=3)),
+            angle,
         )
     return Query(question, a, b, pose_a, pose_b, motion)
 
 
 def two_movers(rng) -> Query:
-    """Both bodies translate and turn, about any of their points; about three in four of them meet."""
+    """Both bodies translate and turn, about any of their points; about three in four of them
+    meet.
+    """
     q = convex_query(rng, "motion")
 
     def motion(displacement):
         about = single(0.3 * rng.normal(size=3)) if rng.random() < 0.3 else np.zeros(3)
-        return Motion(displacement, single(rng.normal(size=3)), float(single(rng.uniform(-6, 6))), about)
+        return Motion(
+            displacement, single(rng.normal(size=3)), float(single(rng.uniform(-6, 6))), about
+        )
 
-    return replace(q, motion=motion(q.motion.displacement), motion_b=motion(single(0.5 * rng.normal(size=3))))
+    return replace(
+        q, motion=motion(q.motion.displacement), motion_b=motion(single(0.5 * rng.normal(size=3)))
+    )
 
 
 def moved_together(q: Query, half_turn: int) -> Query:
-    """Both bodies carried by one rigid motion that doubles hold exactly: a half turn about an axis and an integer shift."""
+    """Both bodies carried by one rigid motion that doubles hold exactly: a half turn about an axis
+    and an integer shift.
+    """
     h = np.zeros(4)
     h[1 + half_turn] = 1.0
     shift = np.array([3.0, -5.0, 7.0])
@@ -56,10 +69,17 @@ def moved_together(q: Query, half_turn: int) -> Query:
         w, x, y, z = pose.quaternion
         v = np.array([x, y, z])
         u = h[1:]
-        return Pose(np.concatenate([[-u @ v], w * u + np.cross(u, v)]), flip * pose.position + shift)
+        return Pose(
+            np.concatenate([[-u @ v], w * u + np.cross(u, v)]), flip * pose.position + shift
+        )
 
-    motions = [Motion(flip * m.displacement, flip * m.axis, m.angle, m.about) for m in (q.motion, q.motion_b)]
-    return replace(q, pose_a=move(q.pose_a), pose_b=move(q.pose_b), motion=motions[0], motion_b=motions[1])
+    motions = [
+        Motion(flip * m.displacement, flip * m.axis, m.angle, m.about)
+        for m in (q.motion, q.motion_b)
+    ]
+    return replace(
+        q, pose_a=move(q.pose_a), pose_b=move(q.pose_b), motion=motions[0], motion_b=motions[1]
+    )
 
 
 def scaled(q: Query, power: int) -> Query:
@@ -67,7 +87,9 @@ def scaled(q: Query, power: int) -> Query:
     f = 2.0**power
     a, b = (Body._of("convex", x.vertices * f, x.faces, (), x.name) for x in (q.a, q.b))
     pose_a, pose_b = (Pose(p.quaternion, p.position * f) for p in (q.pose_a, q.pose_b))
-    motions = [Motion(m.displacement * f, m.axis, m.angle, m.about * f) for m in (q.motion, q.motion_b)]
+    motions = [
+        Motion(m.displacement * f, m.axis, m.angle, m.about * f) for m in (q.motion, q.motion_b)
+    ]
     return Query(q.question, a, b, pose_a, pose_b, *motions)
 
 
@@ -79,7 +101,9 @@ def reversed_in_time(q: Query) -> Query:
 
 
 def composite_query(rng, question: str) -> Query:
-    """Unions, closed concave meshes and hulls against each other, near enough to hit about as often as not."""
+    """Unions, closed concave meshes and hulls against each other, near enough to hit about as often
+    as not.
+    """
 
     def body():
         kind = rng.integers(3)
@@ -87,7 +111,11 @@ def composite_query(rng, question: str) -> Query:
             return hull(rng, 10)
         if kind == 1:
             return Body.union(
-                [Body.convex(single(rng.normal(size=(8, 3)) * 0.4 + rng.normal(size=3))) for _ in range(4)], "union"
+                [
+                    Body.convex(single(rng.normal(size=(8, 3)) * 0.4 + rng.normal(size=3)))
+                    for _ in range(4)
+                ],
+                "union",
             )
         torus = trimesh.creation.torus(1.0, 0.35, major_sections=10, minor_sections=6)
         return Body.mesh(single(torus.vertices), torus.faces, "torus")

@@ -1,4 +1,6 @@
-"""Corrupted certificates: each mutation makes a claim false or unsupported, and the checker must refuse it."""
+"""Corrupted certificates: each mutation makes a claim false or unsupported, and the checker must
+refuse it.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,7 @@ import numpy as np
 import pytest
 
 from experiments.truth import check, check_many, label
-from experiments.truth.attack import campaign
+from experiments.truth.audit.attack import campaign
 
 from .draw import composite_query, convex_query
 
@@ -62,7 +64,16 @@ def test_a_flipped_label_is_refused():
             assert refused(query, truth, gap=truth.gap * 1.5 + 1e-9)
             assert refused(query, replace(truth, certificate={}))
         for _, query, truth in labelled(question, "hit", 5, 7):
-            assert refused(query, truth, label="clear", start="clear", end="clear", gap=0.0, t_lo=np.nan, t_hi=np.nan)
+            assert refused(
+                query,
+                truth,
+                label="clear",
+                start="clear",
+                end="clear",
+                gap=0.0,
+                t_lo=np.nan,
+                t_hi=np.nan,
+            )
             assert refused(query, replace(truth, certificate={}))
 
 
@@ -75,7 +86,9 @@ def test_a_witness_moved_out_of_its_tetrahedra_is_refused():
             return hit
 
         assert refused(query, truth, inside={"hit": move})
-        assert refused(query, truth, inside={"hit": lambda hit: {**hit, "a": [0, *hit["a"][1:4], hit["a"][1]]}})
+        assert refused(
+            query, truth, inside={"hit": lambda hit: {**hit, "a": [0, *hit["a"][1:4], hit["a"][1]]}}
+        )
 
 
 def _float(x):
@@ -84,15 +97,24 @@ def _float(x):
 
 
 def test_a_small_campaign_of_all_mutations_is_refused():
-    """The full one, thousands of each, is `python -m experiments.truth.attack`."""
-    names = ["feature_gap", "hooked_ls", "through_hole", "thin_wall", "concave_rotation", "linked_tori"]
+    """The full one, thousands of each, is `python -m experiments.truth.audit.attack`."""
+    names = [
+        "feature_gap",
+        "hooked_ls",
+        "through_hole",
+        "thin_wall",
+        "concave_rotation",
+        "linked_tori",
+    ]
     counts, wrong = campaign(1, 5, names)
     assert not wrong
     assert sum(sum(c.values()) for c in counts.values()) > 400 and len(counts) >= 18
 
 
 def test_balls_alone_agree_with_the_doubles():
-    """On true certificates and on nearly true ones: gaps claimed a hair more or less than what is there."""
+    """On true certificates and on nearly true ones: gaps claimed a hair more or less than what is
+    there.
+    """
     rng = np.random.default_rng(12)
     asked = []
     for question in ("overlap", "translation", "motion"):
@@ -101,13 +123,17 @@ def test_balls_alone_agree_with_the_doubles():
             truth = label(query)
             asked.append((query, truth))
             if truth.gap > 0:
-                asked += [(query, replace(truth, gap=truth.gap * (1 + x))) for x in (1e-12, 1e-9, 1e-3, 0.1)]
+                asked += [
+                    (query, replace(truth, gap=truth.gap * (1 + x)))
+                    for x in (1e-12, 1e-9, 1e-3, 0.1)
+                ]
     assert [c.ok for c in check_many(asked)] == [c.ok for c in check_many(asked, doubles=False)]
 
 
 def test_junk_anywhere_in_a_certificate_is_refused_without_harm_to_the_rest():
-    """Nothing raises, and the honest label in the same batch still verifies. What is accepted (a later end of an instant, the
-    null of a mesh) has to be accepted by balls alone too."""
+    """Nothing raises, and the honest label in the same batch still verifies. What is accepted (a
+    later end of an instant, the null of a mesh) has to be accepted by balls alone too.
+    """
     rng = np.random.default_rng(13)
     junk = ["x", "1/0", None, float("nan"), float("inf"), -1, 1e308, [], {}, True, "0x1"]
     honest = convex_query(rng, "overlap")
@@ -122,12 +148,16 @@ def test_junk_anywhere_in_a_certificate_is_refused_without_harm_to_the_rest():
                     certificate = copy.deepcopy(dict(truth.certificate))
                     if _spoil(rng, certificate, junk[rng.integers(len(junk))]) is None:
                         continue
-                    verdicts = check_many([good, (query, replace(truth, certificate=certificate)), good])
+                    verdicts = check_many(
+                        [good, (query, replace(truth, certificate=certificate)), good]
+                    )
                     assert verdicts[0].ok and verdicts[2].ok
                     total += 1
                     refusals += not verdicts[1].ok
                     if verdicts[1].ok and draw is convex_query:
-                        assert check_many([(query, replace(truth, certificate=certificate))], doubles=False)[0].ok
+                        assert check_many(
+                            [(query, replace(truth, certificate=certificate))], doubles=False
+                        )[0].ok
     assert refusals > 0.6 * total
 
 

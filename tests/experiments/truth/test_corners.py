@@ -42,9 +42,17 @@ def test_far_from_the_origin(offset):
     unit = box(1, 1, 1)
     for gap in (2.0**-20, -(2.0**-20)):
         truth = label(
-            Query("overlap", unit, unit, Pose(position=[offset] * 3), Pose(position=[offset + 1 + gap, offset, offset]))
+            Query(
+                "overlap",
+                unit,
+                unit,
+                Pose(position=[offset] * 3),
+                Pose(position=[offset + 1 + gap, offset, offset]),
+            )
         )
-        assert truth.label == ("clear" if gap > 0 else "hit") and np.isclose(truth.gap, gap, rtol=0.01)
+        assert truth.label == ("clear" if gap > 0 else "hit") and np.isclose(
+            truth.gap, gap, rtol=0.01
+        )
     near, far = (
         label(
             Query(
@@ -68,20 +76,51 @@ def test_a_wall_of_1e_9_at_speed_1e6(make):
         ("translation", Motion([2.0**20, 0.125, 0.25])),
         ("motion", Motion([2.0**20, 0.125, 0.25], [1, 1, 1], 50.0)),
     ):
-        truth = label(Query(question, ball, wall, Pose([0.9, 0.1, 0.2, 0.3], [-(2.0**18), 0.1, 0]), Pose(), motion))
+        truth = label(
+            Query(
+                question,
+                ball,
+                wall,
+                Pose([0.9, 0.1, 0.2, 0.3], [-(2.0**18), 0.1, 0]),
+                Pose(),
+                motion,
+            )
+        )
         assert (truth.label, truth.start, truth.end) == ("hit", "clear", "clear")
         assert abs(truth.t_lo - 0.25) < 2e-7 and truth.t_hi - truth.t_lo <= 1e-12
 
 
 def test_a_hundred_turns_in_a_step():
     bar, unit = box(4, 0.25, 0.25), box(1, 1, 1)
-    swept = label(Query("motion", bar, unit, Pose(), Pose(position=[0, 2, 0]), Motion(axis=[0, 0, 1], angle=200 * np.pi)))
+    swept = label(
+        Query(
+            "motion",
+            bar,
+            unit,
+            Pose(),
+            Pose(position=[0, 2, 0]),
+            Motion(axis=[0, 0, 1], angle=200 * np.pi),
+        )
+    )
     assert swept.label == "hit" and 1 / 800 < swept.t_lo < 1 / 400
-    clear = label(Query("motion", bar, unit, Pose(), Pose(position=[0, 3, 0]), Motion(axis=[0, 0, 1], angle=200 * np.pi)))
-    assert clear.label == "clear" and 0.9 * (2.5 - np.hypot(2, 0.125)) < clear.gap <= 2.5 - np.hypot(2, 0.125)
+    clear = label(
+        Query(
+            "motion",
+            bar,
+            unit,
+            Pose(),
+            Pose(position=[0, 3, 0]),
+            Motion(axis=[0, 0, 1], angle=200 * np.pi),
+        )
+    )
+    assert clear.label == "clear" and 0.9 * (
+        2.5 - np.hypot(2, 0.125)
+    ) < clear.gap <= 2.5 - np.hypot(2, 0.125)
 
 
-@pytest.mark.parametrize("body", (box(1, 1, 1), mesh_box(1, 1, 1), torus()), ids=("hull", "mesh", "torus"))
+@pytest.mark.parametrize(
+    "body", (box(1, 1, 1), mesh_box(1, 1, 1), torus()), ids=("hull", "mesh", "torus")
+)
 def test_a_body_against_its_own_copy_in_place(body):
     pose = Pose([0.3, 0.2, 0.1, 0.9], [0.125, 0.25, 0.5])
     for question, motion in (
@@ -122,9 +161,14 @@ def test_nearly_flat_and_tiny_pieces():
     tiny = Body.convex(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]) * 2.0**-30 - 2)
     body = Body.union([box(1, 1, 1), flat, tiny])
     probe = Body.union([box(0.125, 0.125, 0.125)])
-    truth = label(Query("translation", body, probe, Pose(), Pose(position=[3.25, 3.25, 4]), Motion([0, 0, 2])))
+    truth = label(
+        Query("translation", body, probe, Pose(), Pose(position=[3.25, 3.25, 4]), Motion([0, 0, 2]))
+    )
     assert truth.label == "hit" and abs(truth.t_lo - (1 - 0.0625) / 2) < 1e-9
-    assert label(Query("overlap", body, body, Pose(), Pose(position=[0.5, 0.25, 0.125]))).label == "hit"
+    assert (
+        label(Query("overlap", body, body, Pose(), Pose(position=[0.5, 0.25, 0.125]))).label
+        == "hit"
+    )
 
 
 def test_containment_is_a_hit_unless_in_a_cavity():
@@ -139,13 +183,27 @@ def test_containment_is_a_hit_unless_in_a_cavity():
     assert label(Query("overlap", box(1, 1, 1), mesh_box(4, 4, 4))).label == "hit"
     free = label(Query("overlap", small, hollow))
     assert free.label == "clear" and 0.98 < free.gap <= 1
-    assert label(Query("motion", small, hollow, motion=Motion([0.125, 0, 0], [1, 1, 0], 20.0))).label == "clear"
-    assert label(Query("translation", small, hollow, motion=Motion([2, 0, 0]))).t_lo == pytest.approx(0.5)
+    assert (
+        label(Query("motion", small, hollow, motion=Motion([0.125, 0, 0], [1, 1, 0], 20.0))).label
+        == "clear"
+    )
+    assert label(
+        Query("translation", small, hollow, motion=Motion([2, 0, 0]))
+    ).t_lo == pytest.approx(0.5)
 
 
 def test_the_limit_of_effort_is_stated(monkeypatch):
-    from experiments.truth import prover
+    from experiments.truth.prove import prover
 
     monkeypatch.setattr(prover, "EFFORT", 2000.0)
-    truth = label(Query("motion", torus(), torus(), Pose(), Pose([1, 1, 0, 0], [1, 0, 0]), Motion([0, 0, 0.25], [0, 0, 1], 60.0)))
+    truth = label(
+        Query(
+            "motion",
+            torus(),
+            torus(),
+            Pose(),
+            Pose([1, 1, 0, 0], [1, 0, 0]),
+            Motion([0, 0, 0.25], [0, 0, 1], 60.0),
+        )
+    )
     assert truth.label == "uncertain" and "effort limit" in truth.reason

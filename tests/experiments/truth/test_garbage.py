@@ -8,7 +8,7 @@ from math import inf, nan
 
 import pytest
 
-from experiments.rows import _certificate
+from experiments.run.folder.rows import _certificate
 from experiments.truth import label, verify
 from ofg import Body, Motion, Pose, Query
 

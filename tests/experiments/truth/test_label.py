@@ -40,7 +40,11 @@ def test_common_motion_and_scaling_change_no_verdict(question):
     for i in range(25):
         query = convex_query(rng, question)
         truth = label(query)
-        for other, f in ((moved_together(query, i % 3), 1.0), (scaled(query, 20), 2.0**20), (scaled(query, -30), 2.0**-30)):
+        for other, f in (
+            (moved_together(query, i % 3), 1.0),
+            (scaled(query, 20), 2.0**20),
+            (scaled(query, -30), 2.0**-30),
+        ):
             again = label(other)
             assert (again.label, again.start, again.end) == (truth.label, truth.start, truth.end)
             if truth.label == "hit" and question != "overlap":
@@ -107,10 +111,16 @@ def test_the_time_of_a_translation_is_an_exact_rational():
     from fractions import Fraction
 
     wall = Body.convex(CUBE.vertices * [0.25, 4, 4])
-    query = Query("translation", CUBE, wall, Pose(), Pose([1, 0, 0, 0], [3, 0.25, 0.5]), Motion([7, 0, 0]))
+    query = Query(
+        "translation", CUBE, wall, Pose(), Pose([1, 0, 0, 0], [3, 0.25, 0.5]), Motion([7, 0, 0])
+    )
     assert Fraction(label(query).certificate["exact"]["time"]) == Fraction(7, 28)
     rng = np.random.default_rng(14)
-    hits = [t for t in (label(convex_query(rng, "translation")) for _ in range(60)) if t.label == "hit" and t.start == "clear"]
+    hits = [
+        t
+        for t in (label(convex_query(rng, "translation")) for _ in range(60))
+        if t.label == "hit" and t.start == "clear"
+    ]
     times = [Fraction(t.certificate["exact"]["time"]) for t in hits if "exact" in t.certificate]
     assert len(times) == len(hits) > 20
     assert all(t.t_lo <= time <= t.t_hi for t, time in zip(hits, times))

@@ -1,4 +1,6 @@
-"""Both bodies move and turn: swapping changes nothing, instants agree, and the bound on the second derivative is a bound."""
+"""Both bodies move and turn: swapping changes nothing, instants agree, and the bound on the second
+derivative is a bound.
+"""
 
 from __future__ import annotations
 
@@ -12,15 +14,17 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from experiments.truth import check_many, checker, float_filter, label, label_many
-from experiments.truth.balls import BITS, number
-from experiments.truth.geometry import Pair
+from experiments.truth import check_many, label, label_many
+from experiments.truth.check import checker, float_filter
+from experiments.truth.check.balls import BITS, number
+from experiments.truth.check.geometry import Pair
 from ofg import Body, Motion, Pose, Query
 
 from .draw import moved_together, reversed_in_time, scaled, two_movers
 
-# What the second-order bound must not lose: the way of B's point from where it stood at the start of the interval (a maximum at the
-# ends alone is sound only while B rests), and B's rate in the Coriolis term.
+# What the second-order bound must not lose: the way of B's point from where it stood at the start
+# of the interval (a maximum at the ends alone is sound only while B rests), and B's rate in the
+# Coriolis term.
 MUTANTS = {
     "maximum at the ends": {
         "checker": (" + wQ * h * own\n", "\n"),
@@ -71,7 +75,9 @@ def test_a_displacement_common_to_both_bodies_changes_no_verdict():
     for _ in range(40):
         query = two_movers(rng)
         shift = rng.integers(-8, 8, 3).astype(float)
-        motions = [replace(m, displacement=m.displacement + shift) for m in (query.motion, query.motion_b)]
+        motions = [
+            replace(m, displacement=m.displacement + shift) for m in (query.motion, query.motion_b)
+        ]
         one, two = label(query), label(replace(query, motion=motions[0], motion_b=motions[1]))
         assert (one.label, one.start, one.end) == (two.label, two.start, two.end)
         if one.label == "hit":
@@ -86,7 +92,14 @@ def test_a_turn_about_a_point_is_that_of_the_body_framed_there():
         pose_a, pose_b = Pose(), Pose(rng.integers(1, 5, 4).astype(float), [30.0, 2, 1])
         turn = Motion([25, 0, 0], rng.normal(size=3), 2.0, c)
         about = Query("motion", a, b, pose_a, pose_b, turn)
-        framed = Query("motion", Body.convex(a.vertices - c), b, Pose(position=c), pose_b, replace(turn, about=np.zeros(3)))
+        framed = Query(
+            "motion",
+            Body.convex(a.vertices - c),
+            b,
+            Pose(position=c),
+            pose_b,
+            replace(turn, about=np.zeros(3)),
+        )
         one, two = label(about), label(framed)
         assert (one.label, one.start, one.end) == (two.label, two.start, two.end)
         if one.label == "hit":
@@ -94,21 +107,39 @@ def test_a_turn_about_a_point_is_that_of_the_body_framed_there():
 
 
 def gap_at(query, t) -> float:
-    """> 0 apart, < 0 overlapping, as a share of the size: the widest plane by a linear program, which asks nothing of ours."""
+    """> 0 apart, < 0 overlapping, as a share of the size: the widest plane by a linear program,
+    which asks nothing of ours.
+    """
     (a, b), size = (
-        [m.pose_at(p, t).apply(x.vertices) for x, p, m in ((query.a, query.pose_a, query.motion), (query.b, query.pose_b, query.motion_b))],
+        [
+            m.pose_at(p, t).apply(x.vertices)
+            for x, p, m in (
+                (query.a, query.pose_a, query.motion),
+                (query.b, query.pose_b, query.motion_b),
+            )
+        ],
         max(query.a.size, query.b.size),
     )
     centre = a.mean(axis=0)
     a, b = (a - centre) / size, (b - centre) / size
-    rows = np.concatenate([np.c_[-b, np.ones((len(b), 2))], np.c_[a, -np.ones(len(a)), np.ones(len(a))]])
-    r = linprog([0, 0, 0, 0, -1], A_ub=rows, b_ub=np.zeros(len(rows)), bounds=[(-1, 1)] * 3 + [(None, None)] * 2, method="highs",
-                options={"primal_feasibility_tolerance": 1e-10})
+    rows = np.concatenate(
+        [np.c_[-b, np.ones((len(b), 2))], np.c_[a, -np.ones(len(a)), np.ones(len(a))]]
+    )
+    r = linprog(
+        [0, 0, 0, 0, -1],
+        A_ub=rows,
+        b_ub=np.zeros(len(rows)),
+        bounds=[(-1, 1)] * 3 + [(None, None)] * 2,
+        method="highs",
+        options={"primal_feasibility_tolerance": 1e-10},
+    )
     return r.x[4] if r.x[4] > 1e-9 else -1.0
 
 
 def test_instants_agree_with_a_linear_program():
-    """The full one, 2,000 cases by an exact kernel, is `python -m experiments.truth.crosscheck --scenarios both_moving`."""
+    """The full one, 2,000 cases by an exact kernel, is `python -m
+    experiments.truth.audit.crosscheck --scenarios both_moving`.
+    """
     rng = np.random.default_rng(24)
     for _ in range(60):
         query = two_movers(rng)
@@ -121,7 +152,9 @@ def test_instants_agree_with_a_linear_program():
 
 
 def obligations(rng, count):
-    """Planes between single points in random motion, in every frame: what the bound must hold for, near its limits too."""
+    """Planes between single points in random motion, in every frame: what the bound must hold for,
+    near its limits too.
+    """
     for i in range(count):
         kA, kB = rng.normal(size=(2, 3))
         if i % 3 == 0:
@@ -132,19 +165,30 @@ def obligations(rng, count):
         # Where B's point starts at A's centre, what it moves by is all there is of the arm.
         if i % 4 == 0:
             place = -points[1].mean(axis=0)
-        motions = [Motion(rng.normal(size=3) * rng.choice([0, 1]), k, rng.uniform(-8, 8), rng.normal(size=3) * rng.choice([0, 0.5]))
-                   for k in (kA, kB)]
+        motions = [
+            Motion(
+                rng.normal(size=3) * rng.choice([0, 1]),
+                k,
+                rng.uniform(-8, 8),
+                rng.normal(size=3) * rng.choice([0, 0.5]),
+            )
+            for k in (kA, kB)
+        ]
         bodies = [Body.convex(p) for p in points]
         query = Query("motion", *bodies, Pose(), Pose(position=place), *motions)
         with flint.ctx.workprec(BITS):
             pair = Pair(query)
         s, e = sorted(rng.uniform(0, 1, 2))
         frame = checker.FRAMES[i % 3]
-        yield checker.Apart(pair, bodies[0].vertices, bodies[1].vertices, s, e, frame, n.tolist(), 0.0, False)
+        yield checker.Apart(
+            pair, bodies[0].vertices, bodies[1].vertices, s, e, frame, n.tolist(), 0.0, False
+        )
 
 
 def second_derivatives(o) -> np.ndarray:
-    """Largest |f''| over the interval for each vertex of Q, over all of P: by differences of the motion itself."""
+    """Largest |f''| over the interval for each vertex of Q, over all of P: by differences of the
+    motion itself.
+    """
     q, n, h = o.pair.query, np.array(o.n), 1e-4
 
     def turn(motion, t):
@@ -194,7 +238,10 @@ def by_doubles(module, o):
 def test_the_second_derivative_never_exceeds_its_bound(arithmetic):
     bounds = by_balls if arithmetic == "checker" else by_doubles
     module = checker if arithmetic == "checker" else float_filter
-    worst = max(shortfall(bounds(module, o), second_derivatives(o)) for o in obligations(np.random.default_rng(30), 300))
+    worst = max(
+        shortfall(bounds(module, o), second_derivatives(o))
+        for o in obligations(np.random.default_rng(30), 300)
+    )
     assert worst < 1e-3
 
 
@@ -202,23 +249,34 @@ def test_the_second_derivative_never_exceeds_its_bound(arithmetic):
 @pytest.mark.parametrize("arithmetic", ("checker", "float_filter"))
 def test_a_bound_that_forgets_that_b_turns_is_found_out(name, arithmetic):
     bounds = by_balls if arithmetic == "checker" else by_doubles
-    broken = mutant(sys.modules[f"experiments.truth.{arithmetic}"], *MUTANTS[name][arithmetic])
-    worst = max(shortfall(bounds(broken, o), second_derivatives(o)) for o in obligations(np.random.default_rng(30), 300))
+    broken = mutant(
+        sys.modules[f"experiments.truth.check.{arithmetic}"], *MUTANTS[name][arithmetic]
+    )
+    worst = max(
+        shortfall(bounds(broken, o), second_derivatives(o))
+        for o in obligations(np.random.default_rng(30), 300)
+    )
     assert worst > 0.05
 
 
 @pytest.mark.parametrize("angles", ((1.0, -1.0), (0.5, -1.5), (1.0, -0.8)))
 def test_a_false_plane_that_the_coriolis_mutant_accepts_is_refused(angles):
-    """The two turn against each other about one axis. B's arm passes the plane that turns with A half way through the step."""
+    """The two turn against each other about one axis. B's arm passes the plane that turns with A
+    half way through the step.
+    """
     of_a, of_b = angles
     normal = np.array([-np.cos(of_a / 2), np.sin(of_a / 2), 0.0])  # against B's arm at t = 1/2
     tiny = 1e-3 * np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)])
     a, b = Body.convex(tiny - 0.95 * normal), Body.convex(tiny + [1, 0, 0])
     pose_b = Pose([np.cos(of_b / 4), 0, 0, -np.sin(of_b / 4)])
-    query = Query("motion", a, b, Pose(), pose_b, *(Motion(axis=[0, 0, 1], angle=w) for w in angles))
+    query = Query(
+        "motion", a, b, Pose(), pose_b, *(Motion(axis=[0, 0, 1], angle=w) for w in angles)
+    )
     broken = mutant(checker, *MUTANTS["Coriolis without B's rate"]["checker"])
     with flint.ctx.workprec(BITS):
-        o = checker.Apart(Pair(query), a.vertices, b.vertices, 0.0, 1.0, "A", normal.tolist(), 0.0, False)
+        o = checker.Apart(
+            Pair(query), a.vertices, b.vertices, 0.0, 1.0, "A", normal.tolist(), 0.0, False
+        )
         assert _dips(o), "the plane is false"
         assert _holds(broken, o)
         assert not _holds(checker, o) and float_filter.settle([o])
@@ -236,7 +294,10 @@ def _dips(o) -> bool:
     q, n = o.pair.query, np.array(o.n)
     for t in np.linspace(0, 1, 101):
         m = Motion(axis=q.motion.axis, angle=q.motion.angle).pose_at(Pose(), t).rotation @ n
-        x, y = (mo.pose_at(p, t).apply(b.vertices) for mo, p, b in ((q.motion, q.pose_a, q.a), (q.motion_b, q.pose_b, q.b)))
+        x, y = (
+            mo.pose_at(p, t).apply(b.vertices)
+            for mo, p, b in ((q.motion, q.pose_a, q.a), (q.motion_b, q.pose_b, q.b))
+        )
         if (y @ m).min() - (x @ m).max() < -1e-6:
             return True
     return False

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from experiments.rows import _certificate
+from experiments.run.folder.rows import _certificate
 from experiments.truth import Truth, label, label_many, verify
 from ofg import Body, Pose, Query
 
@@ -46,16 +46,18 @@ def test_uncertain_labels_are_counted_by_reason():
 
 
 def test_the_checker_imports_no_prover_and_no_engine():
-    """In a process of its own that stubs the package, so that only the checker's own imports load."""
+    """In a process of its own that stubs the package, so that only the checker's own imports
+    load.
+    """
     code = """
 import importlib, sys, types, pathlib
 import experiments
 folder = pathlib.Path(experiments.__file__).parent / "truth"
 package = types.ModuleType("experiments.truth"); package.__path__ = [str(folder)]
 sys.modules["experiments.truth"] = package
-importlib.import_module("experiments.truth.checker")
+importlib.import_module("experiments.truth.check.checker")
 ours = sorted(m.split(".")[-1] for m in sys.modules if m.startswith("experiments.truth."))
-assert ours == ["balls", "checker", "float_filter", "geometry"], ours
+assert ours == ["balls", "check", "checker", "float_filter", "geometry"], ours
 engines = {"fcl", "pybullet", "mujoco", "scipy", "trimesh", "ofg._core", "ofg"} & set(sys.modules)
 assert not engines, engines
 """

@@ -1,7 +1,9 @@
-"""Garbage into the two extensions, built with the address and undefined-behaviour sanitizers: `make fuzz-boundary`.
+"""Garbage into the two extensions, built with the address and undefined-behaviour sanitizers: `make
+fuzz-boundary`.
 
-Usage: boundary.py FOLDER [calls] [seconds] [seed]. FOLDER holds the modules _core and _native. Every call either
-answers or raises ValueError, TypeError or MemoryError; a sanitizer ends the process with its report. Prints the counts.
+Usage: boundary.py FOLDER [calls] [seconds] [seed]. FOLDER holds the modules _core and _native.
+Every call either answers or raises ValueError, TypeError or MemoryError; a sanitizer ends the
+process with its report. Prints the counts.
 """
 
 import importlib.util
@@ -13,7 +15,26 @@ from pathlib import Path
 
 import numpy as np
 
-ODD = (0.0, -0.0, 1.0, -1.0, 5e-324, 1e-300, 1e-60, 1e-45, 1e10, 1e38, 1e60, 1e61, 1e154, 1e300, 1.7e308, np.inf, -np.inf, np.nan)
+ODD = (
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    5e-324,
+    1e-300,
+    1e-60,
+    1e-45,
+    1e10,
+    1e38,
+    1e60,
+    1e61,
+    1e154,
+    1e300,
+    1.7e308,
+    np.inf,
+    -np.inf,
+    np.nan,
+)
 WHOLE = (-(2**31), -1, 0, 1, 2, 3, 4, 7, 8, 20, 60, 61, 255, 256, 257, 10**6, 2**31 - 1)
 STILL = ([1, 0, 0, 0], [0] * 3, [0] * 3, [0, 0, 1], 0.0, [0] * 3)
 
@@ -39,7 +60,9 @@ class Garbage:
         return float(self.random.choice(ODD)) if self.often(0.15) else float(self.random.normal())
 
     def whole(self) -> int:
-        return int(self.random.choice(WHOLE)) if self.often(0.1) else int(self.random.integers(0, 4))
+        return (
+            int(self.random.choice(WHOLE)) if self.often(0.1) else int(self.random.integers(0, 4))
+        )
 
     def array(self, rows: int, columns: int) -> np.ndarray:
         made = self.random.normal(size=(rows, columns))
@@ -55,9 +78,24 @@ class Garbage:
         """Seldom of another shape, type or layout."""
         if self.often(0.93):
             return a
-        forms = (lambda: a[:0], lambda: a.ravel(), lambda: a[:, :-1], lambda: np.asfortranarray(a), lambda: a[::2], lambda: a.astype(np.float32),
-                 lambda: a.astype(object), lambda: a.tolist(), lambda: None, lambda: a[None], lambda: a.astype(np.complex128), lambda: a.astype(">f8"),
-                 lambda: np.hstack([a, a]), lambda: np.zeros((0, 3)), lambda: "x", lambda: a.astype(np.int64, casting="unsafe"))
+        forms = (
+            lambda: a[:0],
+            lambda: a.ravel(),
+            lambda: a[:, :-1],
+            lambda: np.asfortranarray(a),
+            lambda: a[::2],
+            lambda: a.astype(np.float32),
+            lambda: a.astype(object),
+            lambda: a.tolist(),
+            lambda: None,
+            lambda: a[None],
+            lambda: a.astype(np.complex128),
+            lambda: a.astype(">f8"),
+            lambda: np.hstack([a, a]),
+            lambda: np.zeros((0, 3)),
+            lambda: "x",
+            lambda: a.astype(np.int64, casting="unsafe"),
+        )
         return forms[self.random.integers(len(forms))]()
 
     def mesh(self) -> tuple:
@@ -87,17 +125,28 @@ class Calls:
     def solid(self):
         pieces = [self.g.mesh() for _ in range(self.g.random.integers(0, 3))]
         pf = [f for _, f in pieces][: -1 if self.g.often(0.02) else None]
-        self._keep(self.solids, self.core.Solid(*self.g.mesh(), self.g.often(0.5), [v for v, _ in pieces], pf))
+        self._keep(
+            self.solids,
+            self.core.Solid(*self.g.mesh(), self.g.often(0.5), [v for v, _ in pieces], pf),
+        )
 
     def of_mesh(self):
         self._keep(self.proved, self.native.Solid.of_mesh(*self.g.mesh()))
 
     def of_pieces(self):
-        self._keep(self.proved, self.native.Solid.of_pieces([self.g.mesh()[0] for _ in range(self.g.random.integers(0, 4))]))
+        self._keep(
+            self.proved,
+            self.native.Solid.of_pieces(
+                [self.g.mesh()[0] for _ in range(self.g.random.integers(0, 4))]
+            ),
+        )
 
     def mover(self):
         parts = [[self.g.number() for _ in range(n)] for n in (4, 3, 3, 3)]
-        self._keep(self.movers, self.native.Mover(*parts, self.g.number(), [self.g.number() for _ in range(3)]))
+        self._keep(
+            self.movers,
+            self.native.Mover(*parts, self.g.number(), [self.g.number() for _ in range(3)]),
+        )
 
     def _keep(self, kept: list, made) -> None:
         kept.append(made)
@@ -108,53 +157,113 @@ class Calls:
 
     def options(self, *rows):
         o = self.core.Options()
-        for name in ("k", "toi", "broad", "concave", "nearest", "order", "iterations", "piece_times", "selection_times"):
+        for name in (
+            "k",
+            "toi",
+            "broad",
+            "concave",
+            "nearest",
+            "order",
+            "iterations",
+            "piece_times",
+            "selection_times",
+        ):
             if self.g.often(0.5):
                 setattr(o, name, max(1, self.g.whole()) if self.g.often(0.9) else self.g.whole())
-        for name in ("adaptive_k", "both_vertices", "edge_edge", "containment", "earliest", "screen", "end_moment"):
+        for name in (
+            "adaptive_k",
+            "both_vertices",
+            "edge_edge",
+            "containment",
+            "earliest",
+            "screen",
+            "end_moment",
+        ):
             setattr(o, name, self.g.often(0.5))
         if self.g.often(0.2):
             o.arc_tolerance = self.g.number()
         if 0 < o.arc_tolerance < 1:  # millions of parts of a step are no fault, but take minutes
-            soon = all(isinstance(r, np.ndarray) and r.dtype == float and (np.abs(r[np.isfinite(r)]) < 10).all() for r in rows)
+            soon = all(
+                isinstance(r, np.ndarray)
+                and r.dtype == float
+                and (np.abs(r[np.isfinite(r)]) < 10).all()
+                for r in rows
+            )
             o.arc_tolerance = max(o.arc_tolerance, 1e-2) if soon else 0.0
         return o
 
     def ask_many(self):
         n = int(self.g.random.integers(0, 4))
         rows = (self.g.poses(n), self.g.poses(n), self.g.motions(n), self.g.motions(n))
-        self.core.ask_many(self.one(self.solids), self.one(self.solids), *rows, self.options(*rows), self.g.whole(), self.g.often(0.5), self.g.often(0.5), self.threads())
+        self.core.ask_many(
+            self.one(self.solids),
+            self.one(self.solids),
+            *rows,
+            self.options(*rows),
+            self.g.whole(),
+            self.g.often(0.5),
+            self.g.often(0.5),
+            self.threads(),
+        )
 
     def threads(self) -> int:
         return self.g.whole() if self.g.often(0.02) else 1
 
     def prepared(self):
         rows = self.g.poses(2), self.g.motions(2)
-        made = self.core.Prepared(self.one(self.solids), self.one(self.solids), *rows, self.options(*rows), self.g.whole(), self.g.often(0.5), self.g.often(0.5))
+        made = self.core.Prepared(
+            self.one(self.solids),
+            self.one(self.solids),
+            *rows,
+            self.options(*rows),
+            self.g.whole(),
+            self.g.often(0.5),
+            self.g.often(0.5),
+        )
         made(), made()
 
     def strays(self):
-        self.core.strays(self.one(self.solids), self.one(self.solids), self.g.poses(2), self.g.motions(2), self.g.number())
+        self.core.strays(
+            self.one(self.solids),
+            self.one(self.solids),
+            self.g.poses(2),
+            self.g.motions(2),
+            self.g.number(),
+        )
 
     def least_points(self):
         self.core.least_points(self.one(self.solids), self.g.array(4, 3))
 
     def triangles(self):
-        (self.core.triangles_meet if self.g.often(0.5) else self.core.triangles_meet_float)(self.g.array(3, 18))
+        (self.core.triangles_meet if self.g.often(0.5) else self.core.triangles_meet_float)(
+            self.g.array(3, 18)
+        )
 
     def set_isa(self):
         self.core.set_isa(self.g.whole())
 
     def pair(self):
-        seeds = {(self.g.whole(), self.g.whole()): self.native.Seed(self.g.whole(), self.g.number()) for _ in range(self.g.random.integers(0, 2))}
-        return self.native.Pair(self.one(self.movers), self.one(self.movers)), self.one(self.proved), self.one(self.proved), seeds
+        seeds = {
+            (self.g.whole(), self.g.whole()): self.native.Seed(self.g.whole(), self.g.number())
+            for _ in range(self.g.random.integers(0, 2))
+        }
+        return (
+            self.native.Pair(self.one(self.movers), self.one(self.movers)),
+            self.one(self.proved),
+            self.one(self.proved),
+            seeds,
+        )
 
     def limit(self) -> float:
-        return self.g.number() if self.g.often(0.05) else float(self.g.random.choice((0, 100, 3000)))
+        return (
+            self.g.number() if self.g.often(0.05) else float(self.g.random.choice((0, 100, 3000)))
+        )
 
     def instant(self):
         pair, a, b, seeds = self.pair()
-        self.native.instant(pair, a, b, self.g.number() if self.g.often(0.2) else 0.0, min(self.limit(), 1e4), seeds)
+        self.native.instant(
+            pair, a, b, self.g.number() if self.g.often(0.2) else 0.0, min(self.limit(), 1e4), seeds
+        )
 
     def sweep(self):
         pair, a, b, seeds = self.pair()
@@ -164,8 +273,20 @@ class Calls:
 def main(folder: str, calls: int = 10**6, seconds: float = 1e9, seed: int = 1) -> None:
     warnings.simplefilter("ignore")
     made = Calls(loaded(folder, "_core"), loaded(folder, "_native"), seed)
-    shares = {"solid": 2, "of_mesh": 2, "of_pieces": 2, "mover": 3, "ask_many": 6, "prepared": 4, "strays": 1, "least_points": 1,
-              "triangles": 1, "set_isa": 0.1, "instant": 2, "sweep": 1}
+    shares = {
+        "solid": 2,
+        "of_mesh": 2,
+        "of_pieces": 2,
+        "mover": 3,
+        "ask_many": 6,
+        "prepared": 4,
+        "strays": 1,
+        "least_points": 1,
+        "triangles": 1,
+        "set_isa": 0.1,
+        "instant": 2,
+        "sweep": 1,
+    }
     names, weights = list(shares), np.array(list(shares.values()))
     begin, done, count = time.monotonic(), 0, Counter()
     while done < calls and time.monotonic() - begin < seconds:
@@ -178,7 +299,10 @@ def main(folder: str, calls: int = 10**6, seconds: float = 1e9, seed: int = 1) -
             done += 1
     for name in names:
         print(f"{name}: {count[name, 'answered']} answered, {count[name, 'refused']} refused")
-    print(f"{done} calls, {sum(n for (_, what), n in count.items() if what == 'refused')} of them refused: no fault")
+    print(
+        f"{done} calls, {sum(n for (_, what), n in count.items() if what == 'refused')} of them"
+        " refused: no fault"
+    )
 
 
 if __name__ == "__main__":

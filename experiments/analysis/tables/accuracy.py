@@ -1,0 +1,269 @@
+"""The tables of accuracy: what each method answered, and how often it was wrong, in two views."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from experiments.analysis import metrics, views
+from experiments.run import piece_truth
+from ofg import QUESTIONS
+
+from .table import MARK, Table, fraction, interval, marked, of, pivot, share
+
+BEYOND = (
+    "Beyond: wrong by more than the tolerance that the method's documentation states (table"
+    " methods)."
+)
+CONTAINED = (
+    "Contained: hits of a body inside another, whose surfaces do not meet; no test of surfaces can"
+    " see them, and they are in no rate."
+)
+OWN = (
+    "Each method over the certified cases that it answered, 95 % Wilson intervals in percent: who"
+    " answers fewer had fewer chances to be wrong."
+)
+
+
+def leaderboards(found: pd.DataFrame) -> list[Table]:
+    """All questions at once, least share of wrong answers first; none where there is one
+    question.
+    """
+    if found.question.nunique() < 2:
+        return []
+    counts = metrics.rates(found, ["method"])
+    counts = counts.sort_values(["wrong_rate", "wrong_high"], kind="stable", na_position="last")
+    single = metrics.out_of_their_depth(found)
+    text = pd.DataFrame(
+        {
+            "method": marked(counts.method, single),
+            "answered": [share(a, n) for a, n in zip(counts.answered, counts.asked)],
+            "wrong": fraction(counts, "wrong", "judged"),
+            "95 %": interval(counts, "wrong"),
+            "beyond": fraction(counts, "beyond", "judged"),
+        }
+    )
+    each = metrics.rates(found, ["method", "question"])
+    for question in found.question.unique():
+        kinds = (("misses", "hits", "missed"), ("false_alarms", "clears", "false"))
+        own = (
+            each[each.question == question]
+            .set_index("method")[[c for kind in kinds for c in kind[:2]]]
+            .reindex(counts.method, fill_value=0)
+        )
+        for count, total, name in kinds:
+            counts[f"{question}_{count}"], counts[f"{question}_{total}"] = (
+                own[count].to_numpy(),
+                own[total].to_numpy(),
+            )
+            text[f"{question} {name}"] = fraction(own, count, total)
+    if counts.contained.any():
+        text["contained"] = counts.contained.astype(str).to_list()
+    numbers = counts[
+        [
+            "method",
+            "asked",
+            "answered",
+            "wrong",
+            "judged",
+            "wrong_low",
+            "wrong_high",
+            "beyond",
+            "contained",
+            *(c for c in counts if c.startswith(tuple(QUESTIONS))),
+        ]
+    ]
+    caption = _caption(
+        f"Least share of wrong answers first. {OWN} The tables common-* compare all methods over"
+        " the same cases.",
+        counts,
+        single,
+    )
+    return [
+        Table(
+            "leaderboard",
+            "Leaderboard, all questions.",
+            caption,
+            numbers,
+            text,
+            False,
+            _there(text, "95 %", "contained"),
+        )
+    ]
+
+
+def accuracy_table(part: pd.DataFrame, question: str) -> Table:
+    counts = metrics.rates(part, ["method"])
+    single = metrics.out_of_their_depth(part)
+    text = pd.DataFrame(
+        {
+            "method": marked(counts.method, single),
+            "answered": [share(a, n) for a, n in zip(counts.answered, counts.asked)],
+            "misses": fraction(counts, "misses", "hits"),
+            "95 %": interval(counts, "miss"),
+        }
+    )
+    if question != "overlap":
+        text["tunnelled"] = fraction(counts, "tunnelled", "can_tunnel")
+    text["false alarms"] = fraction(counts, "false_alarms", "clears")
+    text["95 % "] = interval(counts, "alarm")  # the blank keeps the two names apart
+    text["wrong"], text["beyond"] = (
+        fraction(counts, "wrong", "judged"),
+        fraction(counts, "beyond", "judged"),
+    )
+    if counts.contained.any():
+        text["contained"] = counts.contained.astype(str)
+    tunnelling = (
+        " Tunnelled: misses of sweeps whose start and end are both clear."
+        if question != "overlap"
+        else ""
+    )
+    return Table(
+        f"accuracy-{question}",
+        f"Accuracy, {question}.",
+        _caption(f"{OWN}{tunnelling}", counts, single) + piece_truth.note(part),
+        counts,
+        text,
+        True,
+        _there(text, "95 %", "95 % ", "contained", "tunnelled", "wrong"),
+    )
+
+
+def common_table(part: pd.DataFrame, question: str) -> Table:
+    """The same methods over the same cases, fewest wrong answers first."""
+    same, left_out = views.common(part)
+    counts = metrics.rates(same, ["method"])
+    counts = (
+        counts.assign(rank=views.ranked(counts)).sort_values("rank", kind="stable")
+        if len(counts)
+        else counts.assign(rank=[])
+    )
+    single = metrics.out_of_their_depth(same)
+    text = pd.DataFrame(
+        {
+            "rank": counts["rank"].astype(str),
+            "method": marked(counts.method, single),
+            "wrong": fraction(counts, "wrong", "judged"),
+            "95 %": interval(counts, "wrong"),
+            "beyond": fraction(counts, "beyond", "judged"),
+            "misses": fraction(counts, "misses", "hits"),
+            "false alarms": fraction(counts, "false_alarms", "clears"),
+        }
+    )
+    if len(counts) and counts.contained.any():
+        text["contained"] = counts.contained.astype(str)
+    caption = (
+        f"The {same.case.nunique()} of {part.case.nunique()} cases that all these methods answered,"
+        f" fewest wrong first; equal numbers share a rank. {_left_out(left_out)}"
+    )
+    return Table(
+        f"common-{question}",
+        f"Accuracy on common cases, {question}.",
+        _caption(caption.strip(), counts, single),
+        counts,
+        text[["method", *(c for c in text if c != "method")]],
+        True,
+        _there(text, "95 %", "contained"),
+    )
+
+
+def rank_table(part: pd.DataFrame, question: str) -> Table:
+    """The rank on common cases, by how close the bodies come, and with each scenario of the same
+    weight.
+    """
+    same, _ = views.common(part)
+    if same.empty:
+        return Table(f"ranks-{question}", "", "", same, pd.DataFrame())
+    counts, order = views.by_closeness(same)
+    weighted, total = views.by_scenario(same), metrics.rates(same, ["method"])
+    numbers = counts[["method", "band", "rank", "wrong", "beyond", "judged"]].merge(
+        weighted, on="method"
+    )
+    text = pivot(counts, "band", lambda r: f"{r.rank} ({r.wrong})", order)
+    text = text.merge(
+        pd.DataFrame(
+            {
+                "method": total.method,
+                "all": [f"{k} ({w})" for k, w in zip(views.ranked(total), total.wrong)],
+            }
+        ),
+        on="method",
+    )
+    text = text.merge(
+        pd.DataFrame(
+            {
+                "method": weighted.method,
+                "by scenario": [
+                    f"{k} ({100 * w:.2g} %)"
+                    for k, w in zip(weighted.weighted_rank, weighted.weighted)
+                ],
+            }
+        ),
+        on="method",
+    )
+    sizes = counts.groupby("band").judged.max()
+    n = same.scenario.nunique()
+    caption = (
+        f"Rank, and wrong answers in brackets, on the cases of the table common-{question}, by"
+        " clearance or depth over size"
+        f" ({', '.join(f'{band}: {sizes[band]} cases' for band in order if band in sizes)}). By"
+        f" scenario: the mean of the shares of wrong answers of the {n} scenarios, which each weigh"
+        f" 1/{n}."
+    )
+    return Table(f"ranks-{question}", f"Ranks, {question}.", caption, numbers, text.astype(str))
+
+
+def scenario_table(part: pd.DataFrame, question: str) -> Table:
+    counts = metrics.rates(part, ["method", "scenario"])
+    return Table(
+        f"scenarios-{question}",
+        f"Wrong answers by scenario, {question}.",
+        "Misses and false alarms of the certified cases answered; - where "
+        f"a method answered none.{piece_truth.note(part)}",
+        counts[
+            [
+                "method",
+                "scenario",
+                "misses",
+                "false_alarms",
+                "beyond",
+                "contained",
+                "hits",
+                "clears",
+            ]
+        ],
+        pivot(counts, "scenario", lambda r: of(r.wrong, r.judged)),
+    )
+
+
+def gap_table(part: pd.DataFrame) -> Table:
+    bands, order = views.gap_bands(part.relative_gap)
+    counts = metrics.rates(part.assign(band=bands).dropna(subset=["band"]), ["method", "band"])
+    return Table(
+        "gap-overlap",
+        "Wrong answers by signed gap over size, overlap.",
+        "Left of 0 the bodies overlap (misses), right of it they are apart (false alarms).",
+        counts[
+            ["method", "band", "misses", "false_alarms", "beyond", "contained", "hits", "clears"]
+        ],
+        pivot(counts, "band", lambda r: of(r.wrong, r.judged), order),
+    )
+
+
+def _there(text: pd.DataFrame, *names: str) -> tuple[str, ...]:
+    """Those of the names that are columns."""
+    return tuple(name for name in names if name in text)
+
+
+def _caption(text: str, counts: pd.DataFrame, single: set[str]) -> str:
+    contained = f" {CONTAINED}" if len(counts) and counts.contained.any() else ""
+    mark = (
+        f" {MARK.strip()}: computes or holds bodies in single precision, and was asked cases whose"
+        " numbers are not rounded to it."
+        if single
+        else ""
+    )
+    return f"{text} {BEYOND}{contained}{mark}"
+
+
+def _left_out(methods: list[str]) -> str:
+    return f"Left out, as they answered less than half: {', '.join(methods)}." if methods else ""

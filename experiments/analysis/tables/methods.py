@@ -1,0 +1,69 @@
+"""The table of the methods of a run, as they declare themselves."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from baselines import registry
+from experiments.analysis.outcome import method_of
+from experiments.run.folder.store import Store
+from ofg import QUESTIONS
+
+from .table import Table
+
+UNKNOWN = "its file is not loaded here"  #: in place of what a method declares
+
+
+def _tolerance(name: str, found: pd.DataFrame) -> str:
+    """Of the labels of a method; more than one where a parameter decides it."""
+    made = [
+        m for label in found.method.unique() if label.split()[0] == name and (m := method_of(label))
+    ]
+    return " or ".join(dict.fromkeys(str(m.tolerance) for m in made)) or "unknown"
+
+
+def method_table(store: Store, found: pd.DataFrame) -> Table:
+    """What each method of the run is, as it declares itself, with the version that ran."""
+    versions, known, rows = store.facts.get("versions", {}), registry.methods(), []
+    for name in dict.fromkeys(label.split()[0] for label in found.method):
+        m = known.get(name)
+        if m is None:
+            rows.append(
+                {
+                    "method": name,
+                    "configuration": "unknown",
+                    "engine": "unknown",
+                    "answers": "",
+                    "bodies": "",
+                    "tests": "unknown",
+                    "tolerance": "unknown",
+                    "guarantee": UNKNOWN,
+                }
+            )
+            continue
+        rows.append(
+            {
+                "method": name,
+                "configuration": m.configuration,
+                "engine": f"{m.engine} {versions.get(m.engine) or 'absent'}",
+                "answers": " ".join(q for q in QUESTIONS if q in m.questions),
+                "bodies": " ".join(sorted(m.bodies)),
+                "tests": "solid" if m.solid else "surface",
+                "tolerance": _tolerance(name, found),
+                "guarantee": m.guarantee,
+            }
+        )
+    frame = pd.DataFrame(rows)
+    text = frame.assign(
+        answers=[" ".join(q[0] for q in a.split()) for a in frame.answers],
+        bodies=[" ".join(k[0] for k in b.split()) for b in frame.bodies],
+    )
+    return Table(
+        "methods",
+        "Methods.",
+        "As they declare themselves. Answers: overlap, translation, motion; bodies: convex, mesh,"
+        " union. A method is left out of the tables of questions that it does not answer.",
+        frame,
+        text.astype(str),
+        optional=("guarantee", "engine"),
+    )

@@ -1,0 +1,25 @@
+"""A case: a query with the scenario it came from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from ofg import Query
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """id: "thin_wall/100/0007": scenario, level of difficulty, index. level: the value on the
+    scenario's difficulty axis. tags: what else a table may be split by ({"feature": "edge-edge"});
+    strings or numbers. precision: "float32" where the scenario declares that every number is a
+    float32 number, else "float64".
+    """
+
+    id: str
+    scenario: str
+    level: float
+    index: int
+    query: Query
+    tags: Mapping[str, str | float] = field(default_factory=dict)
+    precision: str = "float64"

@@ -1,0 +1,43 @@
+"""Two bodies fly and turn, each about its centre or another of its points, and meet or stop
+short.
+"""
+
+import numpy as np
+
+from experiments.cases.placement import any_direction, in_world, touching
+from experiments.cases.scenario import Draft, Scenario
+from experiments.cases.shapes import any_convex
+from ofg import Motion, Pose
+
+
+def generate(rng, level) -> Draft:
+    a, b = any_convex(rng), any_convex(rng)
+    place = ("onto", "short of")[int(rng.random() < 0.4)]
+    time = rng.uniform(0.2, 0.9) if place == "onto" else rng.uniform(1.1, 2.0)
+    rotation, contact, normal = touching(rng, a, b, 0.0)
+    heading = -normal + 0.5 * any_direction(rng)
+    travel = a.size * rng.uniform(0.5, 3.0) * heading / np.linalg.norm(heading)
+    # Who reads A's motion alone sees another approach: B has a share of it, and both drift.
+    share, drift = rng.uniform(0.2, 0.8), a.size * any_direction(rng)
+    pivot = ("centre", "point")[int(rng.random() < 0.5)]
+    off = float(pivot == "point")
+    arms = [off * body.size * rng.uniform(0.3, 1.0) * any_direction(rng) for body in (a, b)]
+    motion = Motion((1 - share) * travel + drift, any_direction(rng), level, arms[0])
+    motion_b = Motion(drift - share * travel, any_direction(rng), level, arms[1])
+    # At `time` they touch; from there both go back to the start.
+    start_a = motion.pose_at(Pose(rotation, contact), -time)
+    start_b = motion_b.pose_at(Pose(), -time)
+    tags = {"place": place, "turns about": pivot}
+    return in_world(rng, Draft(a, b, start_a, start_b, motion, tags, motion_b))
+
+
+SCENARIO = Scenario(
+    name="both_moving",
+    question="motion",
+    precision="float32",
+    exposes="methods that know one moving body, and those that read a motion as its two ends",
+    axis="angle by which each body turns, radians",
+    levels=(0.1, 0.5, 1.5, 6.0),
+    generate=generate,
+    redraw_if=("start-overlap",),
+)

@@ -1,0 +1,28 @@
+"""Random bodies in random poses at a distance of their centres: the control, as most published
+comparisons are made.
+"""
+
+from experiments.cases.placement import any_direction, any_rotation, in_world
+from experiments.cases.scenario import Draft, Scenario
+from experiments.cases.shapes import any_convex
+from ofg import Pose
+
+
+def generate(rng, level) -> Draft:
+    a, b = any_convex(rng), any_convex(rng)
+    away = level * (a.radius + b.radius) * any_direction(rng)
+    return in_world(rng, Draft(a, b, Pose(any_rotation(rng), away), Pose(any_rotation(rng))))
+
+
+SCENARIO = Scenario(
+    name="random_pose",
+    question="overlap",
+    precision="float32",
+    exposes=(
+        "next to nothing, and that is its use: on easy cases nearly every method is right, and"
+        " pooled rates flatter"
+    ),
+    axis="distance of the centres / sum of the radii",
+    levels=(0.25, 0.5, 0.75, 1.0, 1.25),
+    generate=generate,
+)

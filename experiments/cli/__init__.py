@@ -1,0 +1,1 @@
+"""The command line, and the order in which a run is made: `runner.py`."""

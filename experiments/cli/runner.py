@@ -1,0 +1,230 @@
+"""The main job: scenarios -> certified cases -> observations -> times -> tables and figures, in one
+folder.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import shutil
+import statistics
+from pathlib import Path
+
+import pandas as pd
+
+from baselines import registry
+from experiments.analysis import outcome
+from experiments.analysis.plots import curves, figures
+from experiments.analysis.tables import tables
+from experiments.cases import families
+from experiments.publish.report import report as html_report
+from experiments.run import answering, declared, decomposing, labelling, ownfile, progress, timing
+from experiments.run.config import ConfigError, RunConfig
+from experiments.run.folder import manifest, origin
+from experiments.run.folder.store import Store, StoreError
+from experiments.run.progress import say
+from experiments.studies.stepping import experiment as stepping
+from ofg import decomposition, piecefile
+
+from . import entries
+
+# One label, one process that imports an engine, one case asked of one method, one timed call: only
+# the plan that a run starts from.
+LABEL_SECONDS, PROCESS_SECONDS, ASK_SECONDS, CALL_SECONDS = 0.06, 0.5, 0.003, 0.0003
+
+
+def run(
+    config: RunConfig, folder: Path, workers: int | None = None, skip_missing: bool = False
+) -> list[tables.Table]:
+    """Run `config` in `folder`, or finish what was begun there; returns its tables. Raises
+    ConfigError or StoreError.
+    """
+    entries.check(config)
+    absent = missing(config.methods)
+    if absent and not skip_missing:
+        raise ConfigError(
+            "An engine that this run asks for is not installed. "
+            + " ".join(absent)
+            + " Or leave its rows empty with --skip-missing."
+        )
+    store = Store(folder)
+    with store.held(config):
+        if "finished" in facts(store):
+            made = report(store)
+            shutil.rmtree(store.folder / "parts", ignore_errors=True)
+            say(f"The run in {folder} is finished, nothing was run; its tables were made anew.")
+            return made
+        begin(store, config)
+        return finish(store, config, workers or os.cpu_count() or 1)
+
+
+def begin(store: Store, config: RunConfig) -> None:
+    """Say in manifest.json what the run is made with; what an unfinished run made with other code
+    is left behind by its key.
+    """
+    before, code = facts(store), origin.code()
+    if before and before.get("code") != code:
+        say(
+            f"The run in {store.folder} was begun with another state of the code; what it had"
+            " finished is made again."
+        )
+    own = dict(
+        zip(ownfile.copies(config), ownfile.digests(config.method_files + config.scenario_files))
+    )
+    note(
+        store,
+        started=before.get("started", manifest.now()),
+        commit=manifest.commit(),
+        code=code,
+        versions=manifest.versions(config),
+        build=manifest.build(),
+        before=manifest.machine(),
+        **({"own_files": own} if own else {}),
+        **declared.of(config),
+    )
+    if lost := piecefile.fault(decomposition.cache_folder()):
+        say(lost)
+
+
+def finish(store: Store, config: RunConfig, workers: int) -> list[tables.Table]:
+    """Make what is not there yet, and the tables of it all."""
+    if config.stepping:
+        stepping.measure(store, config)
+        more = {}
+    else:
+        with progress.forecast(plan(config, workers)) as forecast:
+            labelling.make_cases(store, config, workers)
+            decomposing.make(store, config, workers)
+            answering.ask(store, config, workers, Paces(store, config, workers, forecast).told)
+            timing.measure(store, config)
+        more = {"workers": workers, "halfway": halfway(forecast)}
+    if changed := ownfile.changed(config, store.folder):
+        raise StoreError(changed)
+    note(
+        store,
+        finished=manifest.now(),
+        after=manifest.machine(),
+        sha256=manifest.hashes(store.folder),
+        **more,
+    )
+    made = report(store)
+    shutil.rmtree(store.folder / "parts", ignore_errors=True)
+    return made
+
+
+def report(store: Store) -> list[tables.Table]:
+    """Write tables/, figures/ and report.html from the rows of the run (figures and report not of
+    the stepping track).
+    """
+    made = list(tables.build(store))
+    tables.save(store, made)
+    curves.save(store, made)
+    if store.has("timings.parquet"):
+        figures.accuracy_speed(store)
+    if store.has("observations.parquet"):
+        outcome.save(store)
+        html_report(store, made)
+    return made
+
+
+def plan(config: RunConfig, workers: int) -> dict[str, float]:
+    """Seconds that each stage will take, before anything is known: roughly what the experiments
+    took on one machine.
+    """
+    cases, methods = (
+        len(labelling.slots(config)),
+        sum(len(registry.make(spec)) for spec in config.asked),
+    )
+    processes = methods * math.ceil(cases / answering.CHUNK)
+    bins = (
+        3 * len({families.get(c.name).question for c in config.scenarios})
+        if config.timing.cases
+        else 0
+    )
+    calls = (
+        min(cases, bins * config.timing.cases)
+        * methods
+        * (config.timing.rounds + config.timing.warmup)
+    )
+    return {
+        "certify cases": LABEL_SECONDS * cases / workers,
+        "ask methods": (PROCESS_SECONDS * processes + ASK_SECONDS * cases * methods) / workers,
+        "time methods": 3 * timing.START * bins + CALL_SECONDS * calls,
+    }
+
+
+class Paces:
+    """Tells the forecast, with each chunk of answers, what asking and timing will still take."""
+
+    def __init__(self, store: Store, config: RunConfig, workers: int, forecast: progress.Forecast):
+        self.config, self.workers, self.forecast, self.begun = config, workers, forecast, None
+        cases = store.read("cases.parquet").assign(
+            situation=timing.situation_of, faces=lambda c: timing.size_of(c.faces)
+        )
+        self.question = dict(zip(cases.case, cases.question))
+        bins = (
+            cases[cases.label != "uncertain"]
+            .groupby(["question", "faces", "situation"], observed=True)
+            .size()
+            .clip(upper=config.timing.cases)
+        )
+        self.bins = (
+            {question: list(sizes) for question, sizes in bins.groupby(level="question")}
+            if config.timing.cases
+            else {}
+        )
+        self.left = {m.label: len(cases) for spec in config.asked for m in registry.make(spec)}
+        self.paces: dict[str, pd.DataFrame] = {}
+
+    def told(self, label: str, rows: list[dict]) -> None:
+        limit = self.config.query_seconds
+        pace = pd.DataFrame(
+            [
+                {
+                    "question": self.question[r["case"]],
+                    **{c: r.get(c, math.nan) for c in answering.PACE},
+                    "seconds": limit if r["status"] == "timeout" else 0.0,
+                }
+                for r in rows
+            ]
+        )
+        pace["seconds"] += (
+            pace.build_s.fillna(0.0) + pace.query_s.fillna(0.0) + PROCESS_SECONDS / answering.CHUNK
+        )
+        self.paces[label] = pd.concat([self.paces[label], pace]) if label in self.paces else pace
+        self.left[label] -= len(rows)
+        known = {name: own.seconds.mean() for name, own in self.paces.items()}
+        # one slow method says nothing of those that have not answered yet
+        other = statistics.median(known.values())
+        asking = sum(n * known.get(name, other) for name, n in self.left.items()) / self.workers
+        self.forecast.foresee("ask methods", asking)
+        calls = sum(map(sum, self.bins.values())) * (
+            self.config.timing.rounds + self.config.timing.warmup
+        )
+        unknown = (len(self.left) - len(known)) * CALL_SECONDS * calls
+        self.forecast.foresee(
+            "time methods", timing.foresee(self.bins, self.paces, self.config.timing) + unknown
+        )
+
+
+def halfway(forecast: progress.Forecast) -> dict | None:
+    """For the manifest: what was said to be left in the middle of the run, and what was."""
+    found = forecast.at_half()
+    return found and {"said_left": round(found[0], 1), "was_left": round(found[1], 1)}
+
+
+def missing(specs: tuple[str, ...]) -> list[str]:
+    """One sentence per engine that is asked for and not installed. Raises for an unknown method."""
+    classes = {type(m) for spec in specs for m in registry.make(spec)}
+    return sorted({reason for cls in classes if (reason := registry.available(cls))})
+
+
+def facts(store: Store) -> dict:
+    """What manifest.json holds."""
+    return store.facts
+
+
+def note(store: Store, **more) -> None:
+    """Add facts to manifest.json."""
+    store.write_text(json.dumps({**facts(store), **more}, indent=1) + "\n", "manifest.json")

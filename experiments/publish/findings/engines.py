@@ -1,0 +1,246 @@
+"""A section for each engine: misses and false alarms of its methods over all families, and a line
+from each experiment.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+
+import pandas as pd
+
+from baselines import registry
+from experiments.analysis import metrics
+
+from .runs import (
+    Missing,
+    Rate,
+    Runs,
+    grid,
+    interval,
+    listed,
+    or_reason,
+    rate,
+    ratio,
+    rows,
+    wrong_rate,
+)
+
+ENGINES = {  # heading -> distributions; sampled methods stand under a heading of their own
+    "FCL": ("python-fcl",),
+    "Bullet": ("pybullet", "libbullet"),
+    "MuJoCo": ("mujoco",),
+    "Coal": ("coal",),
+    "Rapier": ("rapier3d",),
+    "Parry": ("py-parry3d",),
+    "IPC Toolkit": ("ipctk",),
+    "Drake": ("drake",),
+    "All pairs of faces, and OFG": ("ofg",),
+}
+SAMPLING = "Sampling: a discrete test at n poses"
+SIMULATORS = {"bullet": "Bullet", "mujoco": "MuJoCo", "rapier": "Rapier"}
+OURS = "ofg k=8"
+QUESTIONS = ("overlap", "translation", "motion")
+
+
+def engine_of(label: str) -> str:
+    """The heading of a method, or of a contestant of the stepping track, which is called like its
+    engine or its method.
+    """
+    name = label.split()[0]
+    known = registry.methods().get(name)
+    if known is None or " " in label and name in SIMULATORS:
+        return SIMULATORS.get(name, "")
+    if "-substeps" in name or "-naive" in name:
+        return SAMPLING
+    return next((heading for heading, names in ENGINES.items() if known.engine in names), "")
+
+
+def board(found: pd.DataFrame, heading: str) -> list[dict]:
+    """A row per method of an engine: misses, false alarms, the family with the largest share of
+    wrong answers, failures.
+    """
+    found = found[
+        found.method.map({m: engine_of(m) == heading for m in found.method.unique()}).astype(bool)
+    ]
+    if found.empty:
+        return []
+    counts, made = (
+        metrics.rates(found, ["method", "question"]).set_index(["method", "question"]),
+        [],
+    )
+    judged = found[found.outcome.isin(metrics.JUDGED)]
+    wrong = (
+        judged.outcome.isin(["miss", "false alarm"])
+        .groupby([judged.method, judged.scenario], sort=False)
+        .agg(["sum", "size", "mean"])
+    )
+    for method in found.method.unique():
+        row = {"method": method, "configuration": configuration_of(method)}
+        for question in (q for q in QUESTIONS if (method, q) in counts.index):
+            c = counts.loc[(method, question)]
+            row[f"{question}, missed"] = (
+                str(Rate(int(c.misses), int(c.hits), c.miss_low, c.miss_high)) if c.hits else "-"
+            )
+            row[f"{question}, false"] = (
+                str(Rate(int(c.false_alarms), int(c.clears), c.alarm_low, c.alarm_high))
+                if c.clears
+                else "-"
+            )
+        if method not in wrong.index.get_level_values(0):
+            continue
+        worst = (
+            wrong.loc[method].sort_values(["mean", "size"], ascending=False, kind="stable").iloc[0]
+        )
+        row["worst family"] = (
+            f"{worst.name} {worst['sum']:.0f}/{worst['size']:.0f}" if worst["sum"] else "none"
+        )
+        mine = counts.loc[method].query("answered > 0 or failed > 0")
+        row["beyond its tolerance"] = f"{mine.beyond.sum()}/{mine.judged.sum()}"
+        row["answered"] = f"{mine.answered.sum()}/{mine.asked.sum()}"
+        row["failed"] = str(mine.failed.sum())
+        made.append(row)
+    return made
+
+
+def configuration_of(label: str) -> str:
+    try:
+        return registry.make(label)[0].configuration
+    except (ImportError, ValueError):  # an engine that is not installed here
+        return registry.methods()[label.split()[0]].configuration
+
+
+def gap(runs: Runs, of: Callable) -> dict:
+    found, said = rows(runs.answers("gap"), scenario="feature_gap"), {}
+    for method in of(found):
+        part = rows(found, method=method)
+        bad = part[part.outcome.isin(["miss", "false alarm"])]
+        said[method] = f"{wrong_rate(part)}" + (
+            f", up to |gap|/size {bad.level.abs().max():.0e}" if len(bad) else ""
+        )
+    return said
+
+
+def walls(runs: Runs, of: Callable) -> dict:
+    found = runs.answers("tunnelling")
+    return {method: rate(found, "tunnelled", method=method) for method in of(found)}
+
+
+def turns(runs: Runs, of: Callable) -> dict:
+    found = runs.answers("rotation")
+    return {method: rate(found, method=method) for method in of(found)}
+
+
+def impact(runs: Runs, of: Callable) -> dict:
+    found = runs.answers("impact")
+    errors = metrics.times_of_impact(found[found.method.isin(of(found))], ["method"])
+    form = (
+        "median {e.median:.1e}, 95 % {e.p95:.1e}, latest {e.worst_late:.1e}, earliest"
+        " {e.worst_early:.1e}, n={e.times}"
+    )
+    return {e.method: form.format(e=e) for e in errors.itertuples()}
+
+
+def native(runs: Runs, of: Callable) -> dict:
+    found = rows(runs.file("native/native.csv"), situation="apart")
+    wide = found.pivot(index="method", columns="faces", values="native")
+    over = wide / rows(found, method=OURS).set_index("faces").native
+    return {
+        m: ", ".join(f"{faces} faces {v:.2f}" for faces, v in over.loc[m].items())
+        for m in of(found)
+        if m != OURS
+    }
+
+
+def python(runs: Runs, of: Callable) -> dict:
+    times = runs.times("faces")
+    each = {m: ratio(times, m, OURS, "level") for m in of(times) if m != OURS}
+    return {
+        m: ", ".join(f"{level:g} faces {interval(r)}" for level, r in found.iterrows())
+        for m, found in each.items()
+    }
+
+
+def simulator(runs: Runs, of: Callable) -> dict:
+    """Worlds of the stepping track; kinematic loops around a method stand with the method's
+    engine.
+    """
+    found = runs.file("stepping/stepping.parquet").dropna(subset=["tunnelled"])
+    counts = found.groupby("contestant", sort=False)[["tunnelled", "runs"]].sum()
+    each = {
+        r.Index: Rate(int(r.tunnelled), int(r.runs), *metrics.wilson(r.tunnelled, r.runs))
+        for r in counts.itertuples()
+    }
+    return {name: each[name] for name in of(found.rename(columns={"contestant": "method"}))}
+
+
+def failures(runs: Runs, of: Callable) -> dict:
+    counts: Counter = Counter()
+    for run in runs.finished:
+        found = rows(runs.answers(run))
+        lost = found[found.status.isin(["error", "timeout"]) & found.method.isin(of(found))]
+        counts.update(f"{r.method} ({r.detail[:60]})" for r in lost.itertuples())
+    return counts
+
+
+LINES = (  # what a line is about; the table; what it says of an engine's methods
+    ("By signed gap, wrong", "gap/tables/gap-wrong.md", gap),
+    ("Walls, tunnelled", "tunnelling/tables/tunnelling-straight.md", walls),
+    ("Turns, missed", "rotation/tables/rotation-side.md", turns),
+    (
+        "Time of impact, error in steps, hits at an end too",
+        "impact/tables/impact-latest.md",
+        impact,
+    ),
+    (f"Time over that of {OURS}, native, pairs apart", "native/native.md", native),
+    (
+        (
+            f"Net time over that of {OURS}, from Python, 0 where it is not above the method's own"
+            " floor"
+        ),
+        "faces/tables/faces-ratio.md",
+        python,
+    ),
+    ("Run as a simulator, got past, all scenes and speeds", "stepping/tables", simulator),
+    ("Crashes and timeouts in all runs", "", failures),
+)
+
+
+def lines(runs: Runs, heading: str) -> list[str]:
+    """What the single experiments say of an engine's methods; those that are not there say so,
+    those without it say nothing.
+    """
+
+    def of(frame: pd.DataFrame) -> list[str]:
+        return [m for m in frame.method.unique() if engine_of(m) == heading]
+
+    said = [
+        (title, path, or_reason(lambda say: listed(say(runs, of)), say))
+        for title, path, say in LINES
+    ]
+    return [
+        f"- {title}{f' ({runs.link(path)})' if path else ''}: {text}."
+        for title, path, text in said
+        if text
+    ]
+
+
+def sections(runs: Runs) -> list[str]:
+    """The part of the page on the engines, in paragraphs."""
+    try:
+        found = runs.answers(runs.board)
+    except Missing as reason:
+        return [f"not measured ({reason})"]
+    parts = [
+        f"Misses and false alarms in the run {runs.link(runs.board)}, pooled over all its families"
+        " as it weights them: families are aimed at difficulties, so these are not rates of"
+        " everyday use. Worst family: the largest share wrong, misses and false alarms. Beyond its"
+        " tolerance: wrong by more than the method's documentation allows. Answered: of the cases"
+        " of the questions that it takes; the rest are bodies that it does not take, or failed:"
+        " crashes and timeouts."
+    ]
+    for heading in (*ENGINES, SAMPLING):
+        made = board(found, heading)
+        text = grid(made) if made else f"not measured (run {runs.board} has no answers of it)."
+        parts += [f"### {heading}\n{text}", "\n".join(lines(runs, heading))]
+    return [part for part in parts if part]

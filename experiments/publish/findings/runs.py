@@ -1,0 +1,285 @@
+"""The runs of a folder, and the numbers that are taken from their rows: by metrics, never counted
+in a second way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from experiments.analysis import metrics
+from experiments.analysis.tables import tables
+from experiments.run.folder.store import Store, StoreError
+from experiments.studies import sizes
+
+from . import ends
+
+MISSES = 0.05  # a rate of misses is small if its whole interval lies under this, large if above
+LATE = 1e-3  # of the step: what an estimate of the time of impact may be off
+NOISY = "within the noise"  # in place of a ratio: see metrics.ratios
+HOLDS, PART, FAILS, OPEN, UNMEASURED = "holds", "holds in part", "fails", "open", "not measured"
+
+
+class Missing(Exception):
+    """What cannot be said, because a run or rows of it are not there."""
+
+
+class Runs:
+    """The runs in a folder of results, read when they are first asked for. Every method raises
+    Missing where there is none.
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self._read: dict = {}
+
+    def answers(self, run: str) -> pd.DataFrame:
+        """metrics.outcomes of a run."""
+        return self._once(("answers", run), lambda: metrics.outcomes(Store(self.folder / run)))
+
+    def times(self, run: str) -> pd.DataFrame:
+        """metrics.case_costs of a run, with the scenario and level of each case."""
+        cases = lambda: self.answers(run)[["case", "scenario", "level"]].drop_duplicates()  # noqa: E731
+        return self._once(
+            ("times", run),
+            lambda: metrics.case_costs(Store(self.folder / run)).merge(cases(), on="case"),
+        )
+
+    def bodies(self, run: str) -> pd.Series:
+        """What the two bodies of each case are: "convex and mesh", by case."""
+        return self._once(("bodies", run), lambda: kinds(Store(self.folder / run)))
+
+    def known(self, run: str) -> pd.DataFrame:
+        """ends.known of the cases of a run."""
+        return self._once(("known", run), lambda: ends.known(Store(self.folder / run)))
+
+    def file(self, name: str) -> pd.DataFrame:
+        """A frame of the folder: sizes/sizes.parquet, native/native.csv,
+        stepping/stepping.parquet.
+        """
+        read = pd.read_csv if name.endswith(".csv") else pd.read_parquet
+        return self._once(("file", name), lambda: read(self.folder / name))
+
+    @cached_property
+    def board(self) -> str:
+        """The run with every family: standard, or quick where there is no standard."""
+        return next(
+            (
+                run
+                for run in ("standard", "quick")
+                if (self.folder / run / "observations.parquet").exists()
+            ),
+            "standard",
+        )
+
+    @cached_property
+    def finished(self) -> list[str]:
+        return sorted(p.parent.name for p in self.folder.glob("*/observations.parquet"))
+
+    def link(self, path: str, name: str = "") -> str:
+        """A link to a file of the folder, called like the file if no name is given; the name alone
+        where there is no file.
+        """
+        name = name or Path(path).stem
+        return f"[{name}]({path})" if (self.folder / path).exists() else name
+
+    def links(self, paths) -> str:
+        """paths: with {board} for the run that has every family."""
+        return ", ".join(self.link(p.format(board=self.board)) for p in paths)
+
+    def _once(self, key, read):
+        if key not in self._read:
+            try:
+                self._read[key] = read()
+            except (StoreError, FileNotFoundError):
+                run = key[1].split("/")[0]
+                raise Missing(
+                    f"run {run} is missing"
+                    if not (self.folder / run).exists()
+                    else f"run {run} is not finished, or has no times"
+                ) from None
+        return self._read[key]
+
+
+@dataclass(frozen=True)
+class Rate:
+    count: int
+    total: int
+    low: float
+    high: float
+
+    def __str__(self) -> str:
+        return f"{self.count}/{self.total} ({100 * self.low:.1f}-{100 * self.high:.1f} %)"
+
+    @property
+    def small(self) -> bool:
+        return self.high <= MISSES
+
+    @property
+    def large(self) -> bool:
+        return self.low > MISSES
+
+
+def kinds(store: Store) -> pd.Series:
+    """What the two bodies of each case of a run are, in the order of the alphabet."""
+    cases = store.read("cases.parquet")
+    kind = store.read("bodies.parquet").set_index("body").kind
+    pairs = zip(cases.body_a.map(kind), cases.body_b.map(kind))
+    return pd.Series([" and ".join(sorted(pair)) for pair in pairs], cases.case)
+
+
+def overall(verdicts) -> str:
+    """The verdict on a claim of several parts that have one each."""
+    found = set(verdicts)
+    return found.pop() if len(found) == 1 else PART
+
+
+def rows(frame: pd.DataFrame, **wanted) -> pd.DataFrame:
+    """The rows whose columns have the wanted value, or one of several. Missing if there are
+    none.
+    """
+    for column, value in wanted.items():
+        frame = frame[frame[column].isin(value if isinstance(value, (list, tuple)) else [value])]
+    if frame.empty:
+        raise Missing("no rows with " + ", ".join(f"{c} {v}" for c, v in wanted.items()))
+    return frame
+
+
+def rate(frame: pd.DataFrame, kind: str = "misses", **wanted) -> Rate:
+    """Misses, false alarms or tunnelled of the certified cases answered, by metrics.rates. Missing
+    if there is no such case.
+    """
+    count, total, interval, _ = tables.COUNTS[kind]
+    part = rows(frame, **wanted)
+    found = metrics.rates(part.assign(all=0), ["all"]).iloc[0]
+    if not found[total]:
+        raise Missing(f"no certified {total} among {len(part)} rows")
+    return Rate(
+        int(found[count]), int(found[total]), found[f"{interval}_low"], found[f"{interval}_high"]
+    )
+
+
+def size_rates(runs: Runs, depth: str, k: int) -> dict[int, Rate]:
+    """Misses of the claims run at a depth by number of faces; only sizes above k."""
+    found = rows(sizes.misses(runs.file("sizes/sizes.parquet")), depth=depth, k=k, repairs=False)
+    found = rows(found[found.faces > k], depth=depth)
+    return {r.faces: Rate(r.misses, r.hits, r.miss_low, r.miss_high) for r in found.itertuples()}
+
+
+def are_small(rates) -> str:
+    """The verdict on rates that are claimed to be small."""
+    rates = list(rates)
+    if all(r.small for r in rates):
+        return HOLDS
+    if all(r.large for r in rates):
+        return FAILS
+    return PART if any(r.large for r in rates) else OPEN
+
+
+def ratio(times: pd.DataFrame, method: str, reference: str, by) -> pd.DataFrame:
+    """metrics.ratios of one method, indexed by `by`: ratio, low, high, pairs, in_noise."""
+    groups = [by] if isinstance(by, str) else by
+    found = metrics.ratios(rows(times, method=[method, reference]), reference, groups)
+    return rows(found, method=method).set_index(by).sort_index()
+
+
+def or_reason(find: Callable, *given, **named) -> str:
+    """What find(*given, **named) says, or why it cannot be said: for what stands beside a verdict
+    and does not decide it.
+    """
+    try:
+        return str(find(*given, **named))
+    except Missing as reason:
+        return f"not measured ({reason})"
+
+
+def ratios_listed(times: Callable[[], pd.DataFrame], method: str, reference: str, by: str) -> str:
+    return or_reason(
+        lambda: listed(
+            (key, times_more(r)) for key, r in ratio(times(), method, reference, by).iterrows()
+        )
+    )
+
+
+def listed(values, form: Callable = str) -> str:
+    return "; ".join(
+        (
+            f"{key:g}: {form(value)}"
+            if isinstance(key, (int, float, np.number))
+            else f"{key}: {form(value)}"
+        )
+        for key, value in dict(values).items()
+    )
+
+
+def spread(rates: dict) -> str:
+    """The lowest and the highest of several rates, with what they are of."""
+    named = {
+        f"{key} faces" if isinstance(key, (int, np.integer)) else key: r for key, r in rates.items()
+    }
+    low, *_, high = sorted(
+        named, key=lambda key: (named[key].count / named[key].total, named[key].total)
+    ) * (2 if len(named) == 1 else 1)
+    return f"{low} {named[low]}" if low == high else f"{low} {named[low]} to {high} {named[high]}"
+
+
+def interval(r) -> str:
+    """A ratio and its interval, three digits each, never in powers of ten."""
+    if np.isnan(r.ratio):
+        return NOISY
+    value, low, high = (f"{v:.0f}" if v >= 100 else f"{v:.3g}" for v in (r.ratio, r.low, r.high))
+    return f"{value} [{low}, {high}]"
+
+
+def times_more(r) -> str:
+    return NOISY if np.isnan(r.ratio) else f"{interval(r)}, n={r.pairs}"
+
+
+def share_of(flags: pd.Series) -> Rate:
+    """How many of all are so. Missing if there are none."""
+    if flags.empty:
+        raise Missing("no such rows")
+    count = int(flags.sum())
+    return Rate(count, len(flags), *metrics.wilson(count, len(flags)))
+
+
+def worst_families(found: pd.DataFrame, method: str, kind: str = "misses", n: int = 2) -> str:
+    """The families with a method's highest rates, of those where it has any count."""
+    each = by_family(found, method, kind)
+    some = [name for name in each if each[name].count]
+    worst = sorted(some, key=lambda name: each[name].count / each[name].total)[-n:]
+    return listed({name: each[name] for name in reversed(worst)}) or "no family"
+
+
+def by_family(found: pd.DataFrame, method: str, kind: str = "misses") -> dict[str, Rate]:
+    """A method's rate in each family that has such cases."""
+    label = "clear" if kind == "false alarms" else "hit"
+    such = rows(found, method=method, label=label, status="ok")
+    return {f"`{name}`": rate(part, kind) for name, part in such.groupby("scenario", sort=False)}
+
+
+def wrong_rate(part: pd.DataFrame) -> Rate:
+    """Misses and false alarms of the certified cases answered."""
+    counts = metrics.rates(part.assign(all=0), ["all"]).iloc[0]
+    count, total = int(counts.misses + counts.false_alarms), int(counts.hits + counts.clears)
+    return Rate(count, total, *metrics.wilson(count, total))
+
+
+def grid(made: list[dict]) -> str:
+    """A Markdown table; the columns in which any row has something."""
+    columns = [
+        c
+        for c in dict.fromkeys(c for row in made for c in row)
+        if any(row.get(c, "-") != "-" for row in made)
+    ]
+    lines = [
+        columns,
+        ["---"] * len(columns),
+        *([row.get(c, "-").replace("|", "\\|") for c in columns] for row in made),
+    ]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)

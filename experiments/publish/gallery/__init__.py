@@ -1,0 +1,1 @@
+"""The page of the scenario families, and a drawing of each."""

@@ -1,0 +1,443 @@
+"""What the page is given: the rows of a run, column by column, and the bodies of the cases it can
+draw, in bytes.
+"""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+import ofg
+from baselines import registry
+from baselines.contract import Method
+from experiments.analysis import metrics, nesting, views
+from experiments.analysis.tables import tables
+from experiments.analysis.tables.methods import UNKNOWN
+from experiments.cases import families
+from experiments.run import piece_truth
+from experiments.run.folder.rows import MOTION, body_row, cases_of, filled
+from experiments.run.folder.store import Store
+from experiments.run.progress import stage
+from experiments.run.timing import SIZES, situation_of, size_of
+from ofg import Body, Query
+from ofg.decomposition import kept_at
+
+from . import lanes, selection
+from .certificate import drawable
+
+CODES = {
+    "right": "r",
+    "miss": "m",
+    "false alarm": "f",
+    "contained": "i",
+    "touching": "b",
+    "no label": "n",
+    "unsupported": "u",
+    "error": "e",
+    "timeout": "t",
+}
+SHOWN = 24  # cases of each kind that the gallery can draw for each method
+BYTES = 8_000_000  # of bodies, before compression: what a page may weigh
+CASES = 3_000  # that a page can draw: what its making may take
+EXACT = 5_000  # vertices up to which a body is never rounded
+# faces up to which a selection is drawn; of k = inf on a large mesh the page only says how many
+SELECTED = 2_000
+OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
+
+
+def of_run(store: Store, made_tables=None) -> dict:
+    """Everything the page of a run shows; see page/data.js for its reading."""
+    rows, found = filled(nesting.of(store, store.read("cases.parquet"))), metrics.outcomes(store)
+    made = {
+        "mode": "run",
+        "run": _run(store),
+        "codes": {code: name for name, code in CODES.items()},
+        "cases": _cases(rows),
+        "sizes": [name for _, name in SIZES],
+        "bands": views.gap_bands(pd.Series([], dtype=float))[1],
+        "scenarios": _scenarios(rows),
+        **_observations(found, rows),
+    }
+    made["methods"] = [_method(label, made["run"]["versions"]) for label in made["labels"]]
+    made["lanes"] = {
+        **(lanes.python(store, rows) if store.has("timings.parquet") else {}),
+        **lanes.native(store, set(made["labels"])),
+    }
+    made["tables"] = [_table(t, found) for t in made_tables or tables.build(store)]
+    return {**made, **_shapes(store, rows, found)}
+
+
+def of_case(
+    case,
+    truth,
+    row: dict,
+    observations: pd.DataFrame,
+    versions: dict,
+    refused: str = "",
+    pieces: pd.DataFrame | None = None,
+) -> dict:
+    """The same for one case: `row` is its row of cases.parquet, `observations` what methods said
+    about it, `pieces` its row of pieces.parquet if it has one.
+
+    refused: why the checker does not accept its label, if it does not.
+    """
+    rows = nesting.added(
+        filled(pd.DataFrame([row])),
+        pd.DataFrame([body_row(b) for b in (case.query.a, case.query.b)]),
+    )
+    found = metrics.judge(observations, rows, pieces)
+    made = {
+        "mode": "case",
+        "run": {"versions": versions, **({"refused": refused} if refused else {})},
+        "codes": {code: name for name, code in CODES.items()},
+        "cases": _cases(rows),
+        "sizes": [name for _, name in SIZES],
+        "bands": views.gap_bands(pd.Series([], dtype=float))[1],
+        "scenarios": _scenarios(rows),
+        "lanes": {},
+        "tables": [],
+        **_observations(found, rows),
+    }
+    made["methods"] = [_method(label, versions) for label in made["labels"]]
+    shapes = Shapes(float("inf"), anew=True)
+    shapes.add(
+        0,
+        case,
+        truth,
+        [label for label in made["labels"] if label.split()[0] == "ofg"],
+        len(made["labels"]),
+    )
+    return {**made, **shapes.packed()}
+
+
+def encode(payload: dict) -> str:
+    """JSON, gzip, base64: what page/data.js takes apart with DecompressionStream. The same bytes
+    for the same payload.
+    """
+    return pack(json.dumps(_plain(payload), allow_nan=False, separators=(",", ":")).encode())
+
+
+def pack(content: bytes) -> str:
+    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
+
+
+def _run(store: Store) -> dict:
+    facts = store.facts
+    noise = metrics.noise(store) if store.has("timings.parquet") else math.nan
+    return {
+        "name": store.folder.resolve().name,
+        "title": store.config.title or store.folder.resolve().name,
+        "about": store.config.about,
+        "noise": noise,
+        "config": json.loads(store.config.model_dump_json()),
+        **facts,
+    }
+
+
+def _cases(rows: pd.DataFrame) -> dict:
+    relative = rows.gap / rows["size"]
+    situation = situation_of(rows).where(rows.label != "uncertain", "uncertain")
+    columns = [
+        "case",
+        "scenario",
+        "level",
+        "question",
+        "label",
+        "t_lo",
+        "t_hi",
+        "start",
+        "end",
+        "gap",
+        "touching",
+        "reason",
+        "kind",
+        "size",
+        "faces",
+        *MOTION,
+        "quaternion_a",
+        "position_a",
+        "quaternion_b",
+        "position_b",
+        "attempt",
+    ]
+    made = {name: rows[name].tolist() for name in columns}
+    made.update(
+        tags=[json.loads(t) for t in rows.tags],
+        situation=situation.tolist(),
+        sizes=size_of(rows.faces).tolist(),
+        band=views.gap_bands(relative)[0].where(relative.notna(), None).tolist(),
+        relative=relative.tolist(),
+    )
+    return made
+
+
+def _scenarios(rows: pd.DataFrame) -> dict:
+    known = families.scenarios()
+    return {
+        name: {"axis": known[name].axis, "exposes": known[name].exposes}
+        for name in rows.scenario.unique()
+        if name in known
+    }
+
+
+def _method(label: str, versions: dict) -> dict:
+    name, *_ = label.split()
+    cls = registry.methods().get(name)
+    if cls is None:
+        return {
+            "label": label,
+            "name": name,
+            "curve": label,
+            "engine": name,
+            "configuration": "",
+            "solid": None,
+            "tolerance": "unknown",
+            "guarantee": UNKNOWN,
+            "answers": [],
+            "bodies": [],
+        }
+    try:
+        (method,) = registry.make(label)
+    except (ValueError, ImportError):
+        method = cls
+    return {
+        "label": label,
+        "name": name,
+        "curve": _curve(label, cls),
+        "engine": cls.engine,
+        "version": versions.get(cls.engine),
+        "configuration": method.configuration,
+        "solid": method.solid,
+        "tolerance": str(method.tolerance) if isinstance(method, Method) else "unknown",
+        "guarantee": cls.guarantee,
+        "answers": [q for q in ofg.QUESTIONS if q in cls.questions],
+        "bodies": sorted(cls.bodies),
+    }
+
+
+def _curve(label: str, cls) -> str:
+    """The label without the method's first parameter: what its accuracy-speed curve holds fixed."""
+    first = next(iter(cls.parameters), None)
+    return " ".join(word for word in label.split() if word.split("=")[0] != first)
+
+
+def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
+    """labels; outcome: of each method one letter for each case ("." where there is no row); time,
+    error, detail: sparse.
+
+    truth, sparse: the label and whether it can tunnel, where a method is judged by pieces and not
+    by the case.
+    """
+    place = {case: i for i, case in enumerate(rows.case)}
+    labels = list(dict.fromkeys(found.method))
+    made = {
+        "labels": labels,
+        "outcome": [],
+        "time": [],
+        "error": [],
+        "detail": [],
+        "details": [],
+        "truth": [],
+    }
+    known: dict[str, int] = {}
+    for _, part in found.groupby(pd.Categorical(found.method, labels), observed=True):
+        letters = ["."] * len(rows)
+        at = part.case.map(place)
+        for i, outcome, within in zip(at, part.outcome, part.within):
+            letters[i] = CODES[outcome].upper() if within else CODES[outcome]
+        made["outcome"].append("".join(letters))
+        for name in ("time", "error"):
+            there = part[name].notna()
+            made[name].append([at[there].tolist(), part[name][there].tolist()])
+        own = part.truth == piece_truth.PIECES
+        made["truth"].append(
+            [at[own].tolist(), part.label[own].tolist(), part.can_tunnel[own].tolist()]
+        )
+        said = part.detail.fillna("") != ""
+        made["detail"].append(
+            [at[said].tolist(), [known.setdefault(d, len(known)) for d in part.detail[said]]]
+        )
+    made["details"] = list(known)
+    return made
+
+
+def _table(table, found: pd.DataFrame) -> dict:
+    from .cells import links
+
+    return {
+        "name": table.name,
+        "title": table.title,
+        "caption": table.caption,
+        "columns": [str(c) for c in table.text.columns],
+        "own": table.choice is not None,
+        "rows": table.text.astype(str).values.tolist(),
+        "links": links(table, found),
+    }
+
+
+def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
+    """Bodies, certificates and OFG's selections of the cases that can be drawn: first those of the
+    gallery, then the rest, while there is room.
+    """
+    wanted = gallery(found)
+    order = list(dict.fromkeys([*wanted, *rows.case]))
+    place = {case: i for i, case in enumerate(rows.case)}
+    known = {case.id: (case, truth) for case, truth in cases_of(rows, store.read("bodies.parquet"))}
+    shapes, ours = Shapes(BYTES), found[found.method.str.split().str[0] == "ofg"]
+    first = ours.method.iloc[:1].tolist()
+    wrong = (
+        ours[ours.outcome.isin(["miss", "false alarm"]) | (ours.error > 0)]
+        .groupby("case", sort=False)
+        .method.agg(list)
+    )
+    with stage("draw cases for the page", len(order)) as advance:
+        for i in order:
+            labels = [label for label in wanted.get(i, ()) if label.split()[0] == "ofg"]
+            labels = list(dict.fromkeys([*labels, *wrong.get(i, [])]))
+            shapes.add(place[i], *known[i], labels or first, OVERLAYS)
+            advance(1)
+    return shapes.packed()
+
+
+def gallery(found: pd.DataFrame) -> dict[str, list[str]]:
+    """case -> methods that it is shown for.
+
+    Of each method up to SHOWN misses, false alarms and late times, spread over scenarios and
+    levels; of late times the latest.
+    """
+    wanted: dict[str, list[str]] = {}
+    for label, part in found.groupby("method", sort=False):
+        late = part[part.error > 0].sort_values("error", ascending=False)
+        kinds = [
+            _spread(part[part.outcome == "miss"]),
+            _spread(part[part.outcome == "false alarm"]),
+            late,
+        ]
+        for case in dict.fromkeys(c for kind in kinds for c in kind.case[:SHOWN]):
+            wanted.setdefault(case, []).append(label)
+    return wanted
+
+
+def _spread(part: pd.DataFrame) -> pd.DataFrame:
+    return part.assign(turn=part.groupby(["scenario", "level"]).cumcount()).sort_values(
+        ["turn", "scenario", "level"], kind="stable"
+    )
+
+
+class Shapes:
+    """Collects bodies (each once), certificates and selections until `room` bytes are full."""
+
+    def __init__(self, room: float, anew: bool = False):
+        """anew: meshes may be decomposed, which can take a minute each; else OFG's pieces are shown
+        where they are kept from the run.
+        """
+        self.room, self.anew, self.bytes = room, anew, bytearray()
+        self.bodies, self.drawn, self.proofs, self.ofg = [], {}, {}, {}
+        self._known: dict[str, int] = {}
+        self._decomposed: dict[str, Body] = {}
+
+    def add(self, place: int, case, truth, labels: Iterable[str], most: int) -> None:
+        q = case.query
+        cost = sum(
+            _cost(body)
+            for body in {b.digest: b for b in (q.a, q.b)}.values()
+            if body.digest not in self._known
+        )
+        if len(self.bytes) + cost > self.room or len(self.drawn) == CASES:
+            return
+        self.drawn[place] = [self._body(q.a), self._body(q.b)]
+        self.proofs[place] = drawable(truth.certificate)
+        for label in list(labels)[:most]:
+            made = self._trace(q, label, truth)
+            if made:
+                self.ofg.setdefault(place, {})[label] = made
+
+    def packed(self) -> dict:
+        return {
+            "bodies": self.bodies,
+            "drawn": self.drawn,
+            "proofs": self.proofs,
+            "ofg": self.ofg,
+            "bytes": bytes(self.bytes),
+        }
+
+    def _trace(self, query: Query, label: str, truth) -> dict | None:
+        """What OFG looked at; None where the method refuses the query or its pieces are not kept.
+        "bodies" where it saw pieces of a mesh.
+        """
+        (method,) = registry.make(label)
+        options = {**method._options()}
+        if method.decomposes:
+            if not self.anew and not all(
+                body.kind != "mesh" or kept_at(body).is_file() for body in (query.a, query.b)
+            ):
+                return None
+            try:
+                pieces = [self._pieces(query.a), self._pieces(query.b)]
+            except ofg.BodyError:
+                return None
+            query = replace(query, a=pieces[0], b=pieces[1])
+        made = selection.trace(query, options, truth.t_hi)
+        for side in ("a", "b"):
+            made[f"n{side}"] = len(made[side])
+            made[side] = made[side] if len(made[side]) <= SELECTED else []
+        seen = [query.a.digest, query.b.digest]
+        if any(d not in self._known for d in seen):
+            made["bodies"] = [self._body(query.a), self._body(query.b)]
+        else:
+            made["bodies"] = [self._known[d] for d in seen]
+        return made
+
+    def _pieces(self, body: Body) -> Body:
+        if body.digest not in self._decomposed:
+            self._decomposed[body.digest] = ofg.decompose(body)
+        return self._decomposed[body.digest]
+
+    def _body(self, body: Body) -> int:
+        if body.digest in self._known:
+            return self._known[body.digest]
+        vertices, faces = body.vertices, body.faces
+        exact = np.array_equal(vertices, vertices.astype(np.float32))
+        kind = "f4" if exact or len(vertices) > EXACT else "f8"
+        index = "u2" if len(vertices) < 65536 else "u4"
+        entry: dict[str, Any] = {
+            "name": body.name,
+            "kind": body.kind,
+            "v": [self._put(vertices.astype("<" + kind)), kind, len(vertices)],
+            "f": [self._put(faces.astype("<" + index)), index, len(faces)],
+            "rounded": kind == "f4" and not exact,
+        }
+        if body.kind == "union":
+            entry["pieces"] = [[len(p.vertices), len(p.faces)] for p in body.pieces]
+        self.bodies.append(entry)
+        self._known[body.digest] = len(self.bodies) - 1
+        return self._known[body.digest]
+
+    def _put(self, array: np.ndarray) -> int:
+        self.bytes.extend(b"\0" * (-len(self.bytes) % 8))
+        start = len(self.bytes)
+        self.bytes.extend(array.tobytes())
+        return start
+
+
+def _cost(body: Body) -> int:
+    return 24 * len(body.vertices) + 6 * len(body.faces)
+
+
+def _plain(value):
+    """JSON has no NaN: None in its place; numpy's numbers become Python's."""
+    if isinstance(value, dict):
+        return {str(k): _plain(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [_plain(v) for v in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,160 @@
+"""From certified cases to observations: every method is asked every case, in processes that may
+die.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from time import perf_counter
+
+import pandas as pd
+
+from baselines import registry
+from baselines.contract import MissingEngine, Unsupported, Verdict, checked
+from experiments.cases.case import Case
+
+from . import ownfile, words
+from .config import RunConfig, load_files
+from .folder import origin
+from .folder.rows import cases_of
+from .folder.store import Store
+from .processes.pool import Task, limit, mixed, run
+from .progress import stage
+
+CHUNK = 256  # cases asked in one process: bounds what a leaking engine can hold
+COLUMNS = ["case", "method", "status", "hit", "time", "detail"]
+# seconds, on a busy machine: good to plan the rest of the run by, and for nothing else
+PACE = [
+    "build_s",
+    "query_s",
+]
+PACES = ("parts", "pace.parquet")
+
+
+def ask(
+    store: Store,
+    config: RunConfig,
+    workers: int,
+    told: Callable[[str, list[dict]], None] = lambda label, rows: None,
+) -> None:
+    """Write observations.parquet, a row per case and method; shards that are there already are not
+    made again.
+
+    told(label, rows): called with the rows of each chunk of a method, with their PACE, when it is
+    done.
+    """
+    cases = [
+        case for case, _ in cases_of(store.read("cases.parquet"), store.read("bodies.parquet"))
+    ]
+    methods = [m for spec in config.asked for m in registry.make(spec)]
+    chunks = [cases[i : i + CHUNK] for i in range(0, len(cases), CHUNK)]
+    facts = {
+        "cases": store.digest("cases.parquet"),
+        "limits": [config.build_seconds, config.query_seconds],
+        "own": ownfile.digests(config.method_files),
+    }
+    tasks, names = [], []
+    for method in methods:
+        for chunk in chunks:
+            names.append(
+                store.shard(
+                    "observations",
+                    **facts,
+                    **origin.facts(method.engine),
+                    method=method.label,
+                    chunk=[case.id for case in chunk],
+                )
+            )
+            if not names[-1].ready():
+                tasks.append(_task(store, config, method, chunk, names[-1], told))
+            else:
+                told(method.label, store.read(names[-1]).to_dict("records"))
+    total = len(cases) * len(methods)
+    with stage("ask methods", total, total - sum(len(t.items) for t in tasks)) as advance:
+        run(
+            mixed(tasks),
+            workers,
+            config.build_seconds + config.query_seconds,
+            store.path("workers.log"),
+            advance,
+            partial(load_files, config),
+        )
+    rows = pd.concat([store.read(name) for name in names], ignore_index=True)
+    store.write(rows[["case", "method", *PACE]], *PACES)
+    store.write(rows[COLUMNS], "observations.parquet")
+
+
+def _task(store: Store, config: RunConfig, method, chunk: list[Case], name, told) -> Task:
+    def done(rows):
+        told(method.label, rows)
+        frame = pd.DataFrame(rows, columns=COLUMNS + PACE).astype({"hit": "boolean"})
+        store.write(frame, name)
+
+    def lost(case, loss):
+        return _row(case, method.label, loss.status, detail=loss.detail)
+
+    return Task(_open, (method.label, config), chunk, done, lost)
+
+
+def _open(argument: tuple[str, RunConfig]):
+    spec, config = argument
+    try:
+        (method,) = registry.make(spec)
+        reason = registry.available(type(method))
+    except MissingEngine as error:
+        reason = words.text_of(error)
+    except BaseException as error:  # its constructor is the method's too
+        reason = words.of_error(error)
+        return lambda case: _row(case, spec, "error", detail=reason)
+    if reason:
+        return lambda case: _row(case, spec, "unsupported", detail=reason)
+    return lambda case: answer(method, case, config, spec)
+
+
+def answer(method, case: Case, config: RunConfig, label: str | None = None) -> dict:
+    """The observation row of one method at one case. Whatever it raises is its answer: status
+    `error`.
+
+    label: the method's, where it is known; a method may change its own while it runs.
+    """
+    label = label or method.label
+    try:
+        start = perf_counter()
+        with limit(config.build_seconds):
+            ask_it = method.ready(case.query)
+        built = perf_counter()
+        with limit(config.query_seconds):
+            said = ask_it()
+        pace = {"build_s": built - start, "query_s": perf_counter() - built}
+        verdict = _checked(said)
+    except (Unsupported, MissingEngine) as refusal:
+        return _row(case, label, "unsupported", detail=words.text_of(refusal))
+    except _Unclear as unclear:
+        return _row(case, label, "error", detail=str(unclear))
+    except BaseException as error:  # SystemExit, and the panics of pyo3, are none of Exception
+        return _row(case, label, "error", detail=words.of_error(error))
+    return {**_row(case, label, "ok", verdict.hit, verdict.time), **pace}
+
+
+class _Unclear(Exception):
+    """What a method returned is no clear answer; the message says why."""
+
+
+def _checked(said) -> Verdict:
+    try:
+        return checked(said)
+    except (TypeError, ValueError) as error:
+        raise _Unclear(words.text_of(error)) from error
+
+
+def _row(case: Case, method: str, status: str, hit=None, time=math.nan, detail="") -> dict:
+    return {
+        "case": case.id,
+        "method": method,
+        "status": status,
+        "hit": hit,
+        "time": time,
+        "detail": detail,
+    }

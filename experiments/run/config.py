@@ -1,0 +1,304 @@
+"""What a run consists of: read from a preset or a TOML file, checked field by field."""
+
+from __future__ import annotations
+
+import difflib
+import tomllib
+from functools import cache
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from .folder import given
+
+PRESETS = Path(__file__).parents[1] / "presets"
+CATALOGUE = Path(__file__).parents[1] / "catalogue"
+LONGEST = (
+    1e6  # seconds, of a limit: eleven days; the watchdog takes no more than some hundred years
+)
+MOST_BYTES = 1_000_000  #: of a configuration
+MOST_CASES, MOST_SEED = 10**6, 2**63 - 1
+# entry points of installed packages that bring experiments: the path of a .toml file, or of a
+# folder of them
+GROUP = "ofg.experiments"
+
+
+class ConfigError(ValueError):
+    """A configuration that cannot be run; the message names the file, the field and the remedy."""
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, str_max_length=4000, allow_inf_nan=False)
+
+
+class ScenarioChoice(_Strict):
+    """One family of cases: how many at each of which levels of difficulty (all of them if none are
+    named).
+    """
+
+    name: str
+    cases: int = Field(ge=1, le=MOST_CASES, description="cases at each level")
+    levels: tuple[float, ...] | None = None
+
+
+class TimingChoice(_Strict):
+    """How time is measured; `cases` 0 leaves it out."""
+
+    cases: int = Field(
+        default=24,
+        ge=0,
+        le=MOST_CASES,
+        description="cases timed in each bin of question, size and situation",
+    )
+    rounds: int = Field(
+        default=9, ge=3, le=MOST_CASES, description="how often each case is timed by each method"
+    )
+    warmup: int = Field(default=2, ge=0, le=MOST_CASES, description="rounds thrown away first")
+    seconds: float = Field(
+        default=4.0,
+        gt=0,
+        description=(
+            "a method that takes longer for its rounds of a bin takes part in fewer, at least 3"
+        ),
+    )
+    reference: str = Field(
+        default="", description="method that ratios are taken to [the run's first]"
+    )
+
+
+Value = Literal[
+    "misses",
+    "false alarms",
+    "wrong",
+    "beyond",
+    "tunnelled",
+    "answered",
+    "time error",
+    "latest",
+    "earliest",
+    "net time",
+    "gross time",
+    "build time",
+    "ratio",
+]
+
+
+class TableChoice(_Strict):
+    """A table particular to an experiment: a row per method, a column per value of `columns`,
+    `value` in the cells.
+    """
+
+    name: str = Field(
+        pattern=r"^[a-z0-9][a-z0-9-]*$",
+        max_length=100,
+        description="its files are tables/NAME.csv, .md and .tex",
+    )
+    title: str
+    note: str = ""
+    value: Value
+    columns: str = Field(
+        default="level",
+        description=(
+            "level, scenario, question, situation, faces (ranges), band (signed gap over size), or"
+            " a tag of the scenarios"
+        ),
+    )
+    scenarios: tuple[str, ...] = Field(default=(), description="only cases of these [all]")
+    question: str = Field(default="", description="only cases of this question [all]")
+    situation: Literal["", "deep", "near", "apart", "hit", "clear"] = Field(
+        default="",
+        description=(
+            "only cases of this situation; a table of times without one is made for each situation"
+        ),
+    )
+    headline: bool = Field(default=True, description="printed at the end of the run")
+
+
+class SteppingChoice(_Strict):
+    """The stepping track: engines as simulators, in scenes of experiments/studies/stepping instead
+    of scenarios.
+    """
+
+    runs: int = Field(
+        ge=1, le=MOST_CASES, description="runs for each cell, each at a start phase of its own"
+    )
+    scenes: tuple[str, ...] = Field(default=(), description="names of scenes [all]")
+    travels: tuple[float, ...] = Field(
+        default=(), description="thicknesses per step [those of the track]"
+    )
+
+
+class RunConfig(_Strict):
+    """methods: specifications such as "ofg k=4,8,16": a name, then parameters, several values each.
+
+    optional_methods: the same, of engines that may be absent: the run then says so and leaves their
+    rows `unsupported`.
+    """
+
+    title: str = ""
+    about: str = Field(default="", description="the question that it answers, in a sentence")
+    seed: int = Field(ge=0, le=MOST_SEED)
+    methods: tuple[str, ...] = ()
+    optional_methods: tuple[str, ...] = ()
+    scenarios: tuple[ScenarioChoice, ...] = ()
+    stepping: SteppingChoice | None = None
+    tables: tuple[TableChoice, ...] = ()
+    timing: TimingChoice = TimingChoice()
+    method_files: tuple[str, ...] = Field(
+        default=(), description="Python files with METHODS = [...] of your own"
+    )
+    scenario_files: tuple[str, ...] = Field(
+        default=(), description="Python files with SCENARIO = ... of your own"
+    )
+    build_seconds: float = Field(
+        default=300.0,
+        gt=0,
+        le=LONGEST,
+        description="limit for preparing one query (convex decomposition can take minutes)",
+    )
+    query_seconds: float = Field(
+        default=10.0,
+        gt=0,
+        le=LONGEST,
+        description="limit for one query, after which it counts as timeout",
+    )
+    label_seconds: float = Field(
+        default=30.0,
+        gt=0,
+        le=LONGEST,
+        description="limit for one label, after which it counts as uncertain",
+    )
+
+    @model_validator(mode="after")
+    def _something_to_do(self):
+        if not self.stepping:
+            for field in ("methods", "scenarios"):
+                if not getattr(self, field):
+                    raise ValueError(f"{field} needs at least 1 entry")
+        return self
+
+    @property
+    def asked(self) -> tuple[str, ...]:
+        """All specifications, the optional ones last."""
+        return self.methods + self.optional_methods
+
+    def differences(self, other: RunConfig) -> list[str]:
+        """Fields by which the rows of two runs differ; words and tables are not among them."""
+        return [
+            k
+            for k, v in self.model_dump(exclude={"title", "about", "tables"}).items()
+            if v != other.model_dump()[k]
+        ]
+
+
+def presets() -> list[str]:
+    return sorted(p.stem for p in PRESETS.glob("*.toml"))
+
+
+@cache
+def experiments() -> dict[str, Path]:
+    """name -> file of every experiment: those of the catalogue, then those of installed packages.
+    Raises ConfigError.
+    """
+    found = {p.stem: p for p in sorted(CATALOGUE.glob("*.toml"))}
+    for entry in entry_points(group=GROUP):
+        try:
+            path = Path(entry.load())
+        except Exception as error:
+            raise ConfigError(
+                f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded"
+                f" ({type(error).__name__}: {error}). It names an object that is the path of a"
+                " .toml file or of a folder; mend or uninstall its package."
+            ) from error
+        for file in sorted(path.glob("*.toml")) if path.is_dir() else [path]:
+            if file.stem in found or file.stem in presets():
+                raise ConfigError(
+                    f"The entry point '{entry.name}' of the group {GROUP} brings an experiment"
+                    f" '{file.stem}', a name that is taken; rename its file."
+                )
+            found[file.stem] = file
+    return found
+
+
+def path_of(source: str) -> Path:
+    """The file of a preset or experiment by name, or of a TOML file by its path. Raises
+    ConfigError.
+    """
+    if Path(source).suffix == ".toml":
+        return Path(source)
+    known = {**experiments(), **{name: PRESETS / f"{name}.toml" for name in presets()}}
+    if source not in known:
+        raise ConfigError(
+            f"There is no preset or experiment '{source}'{closest(source, known)}. The presets are"
+            f" {', '.join(presets())}; the experiments are {', '.join(experiments())}; a"
+            " configuration of your own is a path that ends in .toml."
+        )
+    return known[source]
+
+
+def load(source: str) -> RunConfig:
+    """A preset's or an experiment's name, or the path of a TOML file. Raises ConfigError."""
+    path = path_of(source)
+    if not path.exists():
+        raise ConfigError(
+            f"The configuration file {given.shown(path)} does not exist. Copy one of the presets "
+            "(ofg-bench preset quick > mine.toml) and start from there."
+        )
+    what = "The configuration file"
+    text = given.text(path, what, MOST_BYTES)
+    try:
+        return parsed(tomllib.loads(text), path, what)
+    except tomllib.TOMLDecodeError as error:
+        raise ConfigError(f"{what} {path} is not valid TOML: {given.reason(error)}.") from error
+    except RecursionError as error:
+        raise ConfigError(f"{what} {path} is nested too deeply to be read.") from error
+    except ConfigError:
+        raise
+    except ValueError as error:  # a whole number of thousands of digits
+        raise ConfigError(
+            f"{what} {path} holds a number that cannot be read: {given.reason(error)}."
+        ) from error
+
+
+def parsed(content: dict | str, path: Path, what: str = "The file") -> RunConfig:
+    """The configuration that a table, or the text of a JSON file, holds. ConfigError, which names
+    the file and the fields.
+    """
+    try:
+        return (
+            RunConfig.model_validate_json(content)
+            if isinstance(content, str)
+            else RunConfig.model_validate(content)
+        )
+    except ValidationError as error:
+        raise ConfigError(
+            f"{what} {path} has {error.error_count()} wrong field(s):"
+            f" {given.clipped(_wrong(error), 1000)}."
+        ) from error
+
+
+def _wrong(error: ValidationError) -> str:
+    said = []
+    for e in error.errors(include_url=False, include_context=False, include_input=False)[:10]:
+        where = given.shown(".".join(map(str, e["loc"])))
+        said.append(f"{where}: " * bool(where) + given.shown(e["msg"][:1].lower() + e["msg"][1:]))
+    return "; ".join(said)
+
+
+def load_files(config: RunConfig) -> None:
+    """Make the methods and scenarios of the configuration's own files known to this process."""
+    from baselines import registry
+    from experiments.cases import families
+
+    for path in config.method_files:
+        registry.load_file(path)
+    for path in config.scenario_files:
+        families.load_file(path)
+
+
+def closest(word: str, words) -> str:
+    """', did you mean ...?' or nothing."""
+    near = difflib.get_close_matches(word, list(words), n=3, cutoff=0.5)
+    return f" (did you mean {' or '.join(near)}?)" if near else ""

@@ -1,0 +1,185 @@
+"""What a run's own methods and scenarios declare, recorded with it: so that it can be read without
+running their files.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from baselines import registry
+from baselines.contract import Method, Unsupported
+from baselines.tolerance import NONE, Tolerance
+from experiments.cases import families
+from experiments.cases.scenario import Scenario
+
+from .config import RunConfig
+from .folder.store import Store, StoreError
+
+MODULE = (  # begins like the module of a method file, which may take its place
+    "baselines_file_recorded"
+)
+Question = Literal["overlap", "translation", "motion"]
+
+
+class _Recorded(BaseModel):
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False, str_max_length=1000)
+
+
+class ToleranceFacts(_Recorded):
+    """The fields of baselines.tolerance.Tolerance."""
+
+    length: float = Field(ge=0)
+    relative: float = Field(ge=0)
+    step: float = Field(ge=0)
+    sides: Literal["both", "alarms", "misses"]
+
+
+class MethodFacts(_Recorded):
+    """Class attributes of a Method that tables and pages show or reckon with."""
+
+    engine: str
+    configuration: str
+    questions: list[Question]
+    bodies: list[Literal["convex", "mesh", "union"]]
+    solid: bool
+    tolerance: ToleranceFacts
+    precision: Literal["double", "single"]
+    decomposes: bool = False  # manifests of older runs do not say it
+    guarantee: str
+    parameters: dict[str, bool | int | float | str]
+
+
+class ScenarioFacts(_Recorded):
+    question: Question
+    exposes: str
+    axis: str
+    levels: list[float]
+
+
+class Declared(_Recorded):
+    """Of manifest.json: by name, what does not come with this project."""
+
+    methods: dict[str, MethodFacts] = {}
+    scenarios: dict[str, ScenarioFacts] = {}
+
+
+def of(config: RunConfig) -> dict:
+    """What a run is to record of its own methods and scenarios, which are loaded already; {} where
+    it has none.
+    """
+    classes = {spec.split()[0]: registry.methods()[spec.split()[0]] for spec in config.asked}
+    own = {
+        name: cls for name, cls in classes.items() if not cls.__module__.startswith("baselines.")
+    }
+    drawn = [families.get(c.name) for c in config.scenarios if c.name not in families.own_modules()]
+    if not own and not drawn:
+        return {}
+    made = {
+        "methods": {name: _method(cls) for name, cls in own.items()},
+        "scenarios": {
+            s.name: ScenarioFacts(
+                question=s.question,
+                exposes=s.exposes,
+                axis=s.axis,
+                levels=[float(v) for v in s.levels],
+            )
+            for s in drawn
+        },
+    }
+    return {"declared": Declared.model_validate(made).model_dump()}
+
+
+def _method(cls) -> MethodFacts:
+    said = {name: getattr(cls, name) for name in MethodFacts.model_fields}
+    said.update(
+        questions=sorted(cls.questions),
+        bodies=sorted(cls.bodies),
+        tolerance=_tolerance(cls),
+        parameters=dict(cls.parameters),
+    )
+    if not isinstance(said["precision"], str):  # a property, that its parameters decide
+        said["precision"] = "double"
+    said["decomposes"] = said["decomposes"] is True  # False of a property too
+    return MethodFacts.model_validate(said)
+
+
+def _tolerance(cls) -> dict:
+    """As it stands in the class; none where its parameters decide it."""
+    return asdict(cls.tolerance if isinstance(cls.tolerance, Tolerance) else NONE)
+
+
+def know(store: Store) -> list[str]:
+    """Make what a run recorded of its own methods and scenarios known, without running anything of
+    it.
+
+    Returns notices: which files are not run, and of which methods nothing is recorded.
+    """
+    config = store.config
+    try:
+        said = Declared.model_validate(store.facts.get("declared", {}))
+    except ValidationError as error:
+        raise StoreError(
+            f"{store.folder / 'manifest.json'} declares methods or scenarios in a form that cannot"
+            f" be read: {error.error_count()} wrong field(s) in 'declared'. Take the run anew from"
+            " where it was made."
+        ) from error
+    known = registry.methods()
+    for name, facts in said.methods.items():
+        if name not in known or known[name].__module__ == MODULE:
+            known[name] = _stand_in(name, facts)
+    for name, facts in said.scenarios.items():
+        if name not in families.own_modules():
+            families.scenarios().setdefault(
+                name,
+                Scenario(name, facts.question, facts.exposes, facts.axis, facts.levels, _undrawn),
+            )
+    return _notices(config, known)
+
+
+def _notices(config: RunConfig, known) -> list[str]:
+    files = ", ".join((*config.method_files, *config.scenario_files))
+    if not files:
+        return []
+    said = [
+        f"The run names Python files of its own ({files}); they are not run. --trust runs them."
+    ]
+    unknown = dict.fromkeys(
+        spec.split()[0] for spec in config.asked if spec.split() and spec.split()[0] not in known
+    )
+    said += [
+        f"Method '{name}' is not known here; its declaration is unknown (its tolerance is taken as"
+        f" none); pass --trust to load {files}."
+        for name in unknown
+    ]
+    return said
+
+
+def _stand_in(name: str, facts: MethodFacts) -> type[Method]:
+    """A method that says what was recorded of it, and answers nothing."""
+    said = facts.model_dump()
+    said["tolerance"] = Tolerance(**said["tolerance"])
+    said.update(
+        name=name,
+        imports="",
+        questions=frozenset(facts.questions),
+        bodies=frozenset(facts.bodies),
+        prepare=_unasked,
+        __module__=MODULE,
+    )
+    return type(name, (Method,), said)
+
+
+def recorded(name: str) -> bool:
+    """Is a method known by its record alone?"""
+    return getattr(registry.methods().get(name), "__module__", "") == MODULE
+
+
+def _unasked(self, query):
+    raise Unsupported("its file is not loaded; pass --trust")
+
+
+def _undrawn(rng, level):
+    raise ValueError("its file is not loaded; pass --trust")

@@ -1,0 +1,202 @@
+"""From meshes to convex pieces, and to the certified truth of the cases about them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+
+import ofg
+from baselines import registry
+from experiments.cases.case import Case
+from experiments.cases.label import Truth
+from experiments.cases.scenario import snap
+from ofg import Body, BodyError, Query
+
+from . import words
+from .config import RunConfig
+from .folder import origin
+from .folder.rows import body_of, body_row, cases_of, truth_row
+from .folder.shard import Shard
+from .folder.store import Store
+from .labelling import CHUNK
+from .piece_truth import FILES
+from .processes.pool import Loss, Task, mixed, run
+from .progress import stage
+
+DECOMPOSE_SECONDS, LABEL_SECONDS = 4.0, 0.2  # of one body, of one case: only what progress expects
+
+
+@dataclass(frozen=True)
+class Item:
+    """A case about pieces. fault: why a mesh of it has none; it stands in the query as it is."""
+
+    case: str
+    query: Query
+    precision: str
+    fault: str
+
+
+def make(store: Store, config: RunConfig, workers: int) -> None:
+    """Write pieces.parquet and pieces-bodies.parquet: a row per case with a mesh.
+
+    Neither is there where no method decomposes, or no case has a mesh. Shards that are there
+    already are not made again.
+    """
+    cases, bodies = store.read("cases.parquet"), store.read("bodies.parquet")
+    about = about_meshes(cases, bodies)
+    if about.empty or not wanted(config):
+        for name in FILES:
+            store.path(name).unlink(missing_ok=True)
+        return
+    made = _decomposed(store, config, workers, meshes_of(about, bodies))
+    items = [item(case, made) for case, _ in cases_of(about, bodies)]
+    used = {body.digest: body_row(body) for i in items for body in (i.query.a, i.query.b)}
+    store.write(pd.DataFrame(list(used.values())), FILES[1])
+    store.write(_certified(store, config, workers, items), FILES[0])
+
+
+def wanted(config: RunConfig) -> bool:
+    """Whether a method of the run answers about the pieces of a mesh."""
+    return any(method.decomposes for spec in config.asked for method in registry.make(spec))
+
+
+def about_meshes(cases: pd.DataFrame, bodies: pd.DataFrame) -> pd.DataFrame:
+    """The rows of cases with a mesh among their bodies."""
+    meshes = bodies.body[bodies.kind == "mesh"]
+    return cases[cases.body_a.isin(meshes) | cases.body_b.isin(meshes)]
+
+
+def meshes_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> list[Body]:
+    """The meshes that the cases are about, each once."""
+    used = bodies.body.isin({*cases.body_a, *cases.body_b})
+    return [body_of(row) for row in bodies[used & (bodies.kind == "mesh")].itertuples()]
+
+
+def pieces_of(mesh: Body) -> tuple[Body, str]:
+    """What methods put in place of a mesh, and ""; the mesh itself and the reason if it has
+    none.
+    """
+    try:
+        return ofg.decompose(mesh), ""
+    except BodyError as error:
+        return mesh, words.text_of(error)
+
+
+def precision_of(query: Query, precision: str) -> str:
+    """ "float32" if that of the case is, and every vertex of the pieces is a float32 number."""
+    exact = all(np.array_equal(snap(b.vertices), b.vertices) for b in (query.a, query.b))
+    return precision if exact else "float64"
+
+
+def item(case: Case, made: dict[str, tuple[Body, str]]) -> Item:
+    """made: `pieces_of` each mesh by its digest."""
+    q = case.query
+    (a, fault_a), (b, fault_b) = (made.get(body.digest, (body, "")) for body in (q.a, q.b))
+    query = replace(q, a=a, b=b)
+    return Item(case.id, query, precision_of(query, case.precision), fault_a or fault_b)
+
+
+def _decomposed(store: Store, config: RunConfig, workers: int, meshes) -> dict:
+    """digest of each mesh -> `pieces_of` it."""
+    facts = {**origin.facts(), "seconds": config.build_seconds}
+    names = [store.shard("decompositions", **facts, mesh=mesh.digest) for mesh in meshes]
+
+    def keep(mesh, name):
+        def done(results):
+            ((pieces, fault),) = results
+            row = {**body_row(pieces), "mesh": mesh.digest, "fault": fault}
+            store.write(pd.DataFrame([row]), name)
+
+        return done
+
+    tasks = [
+        Task(open_mesh, None, [mesh], keep(mesh, name), lost_mesh)
+        for mesh, name in zip(meshes, names)
+        if not name.ready()
+    ]
+    _run(
+        "decompose meshes",
+        store,
+        tasks,
+        workers,
+        config.build_seconds,
+        len(meshes),
+        DECOMPOSE_SECONDS,
+    )
+    rows = pd.concat([store.read(name) for name in names], ignore_index=True)
+    return {row.mesh: (body_of(row), row.fault) for row in rows.itertuples()}
+
+
+def open_mesh(_):
+    """For a Task whose items are meshes."""
+    return pieces_of
+
+
+def lost_mesh(mesh: Body, loss: Loss) -> tuple[Body, str]:
+    """In place of `pieces_of` a mesh whose process ended."""
+    return mesh, f"decomposing stopped: {loss.detail}"
+
+
+def _certified(store: Store, config: RunConfig, workers: int, items: list[Item]) -> pd.DataFrame:
+    chunks = [items[i : i + CHUNK] for i in range(0, len(items), CHUNK)]
+    facts = {
+        **origin.facts(),
+        "cases": store.digest("cases.parquet"),
+        "bodies": store.digest(FILES[1]),
+        "label_seconds": config.label_seconds,
+    }
+    names = [store.shard("pieces", **facts, chunk=[i.case for i in chunk]) for chunk in chunks]
+
+    def keep(name: Shard):
+        return lambda rows: store.write(pd.DataFrame(rows), name)
+
+    tasks = [
+        Task(_open_label, None, chunk, keep(name), _lost)
+        for chunk, name in zip(chunks, names)
+        if not name.ready()
+    ]
+    _run("certify pieces", store, tasks, workers, config.label_seconds, len(items), LABEL_SECONDS)
+    return pd.concat([store.read(name) for name in names], ignore_index=True)
+
+
+def _run(title: str, store: Store, tasks, workers: int, limit: float, total: int, each: float):
+    """each: seconds that an item is expected to take."""
+    todo = sum(len(task.items) for task in tasks)
+    with stage(title, total, total - todo, each * todo / workers) as advance:
+        run(mixed(tasks), workers, limit, store.path("workers.log"), advance)
+
+
+def _open_label(_):
+    from experiments.truth import label
+
+    def answer(item: Item) -> dict:
+        if item.fault:
+            return _row(item, no_pieces(item))
+        return _row(item, label(item.query))
+
+    return answer
+
+
+def no_pieces(item: Item) -> Truth:
+    """The truth of a case one of whose meshes has no pieces."""
+    return Truth("uncertain", reason=f"no convex pieces: {item.fault}")
+
+
+def place(item: Item) -> dict:
+    """The columns of a row of pieces.parquet that say what it is about."""
+    return {
+        "case": item.case,
+        "body_a": item.query.a.digest,
+        "body_b": item.query.b.digest,
+        "precision": item.precision,
+    }
+
+
+def _lost(item: Item, loss: Loss) -> dict:
+    return _row(item, Truth("uncertain", reason=f"labelling stopped: {loss.detail}"))
+
+
+def _row(item: Item, truth: Truth) -> dict:
+    return {**place(item), **truth_row(truth)}

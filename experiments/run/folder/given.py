@@ -1,0 +1,102 @@
+"""Files that somebody else may have written: read whole as text or JSON, or refused in a
+sentence.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+from pathlib import Path
+from typing import Any
+
+from rich.markup import escape
+
+MOST_TEXT = 16_000_000  #: bytes of a configuration, a manifest or a page
+MOST_CASE = 512_000_000  #: bytes of a case in a file of its own
+
+
+class GivenError(ValueError):
+    """A file that cannot be read; the message names it, the fault and the remedy."""
+
+
+def regular(path: Path, what: str) -> int:
+    """The bytes of a file. GivenError for a folder, a pipe or a device, at which reading would wait
+    for ever.
+    """
+    try:
+        found = os.stat(path)
+    except (OSError, ValueError) as error:
+        raise GivenError(f"{what} {shown(path)} cannot be opened: {reason(error)}.") from error
+    if not stat.S_ISREG(found.st_mode):
+        raise GivenError(f"{what} {shown(path)} is no regular file. Give the path of one.")
+    return found.st_size
+
+
+def text(path: Path, what: str, most: int = MOST_TEXT) -> str:
+    """What a UTF-8 file holds. what: its kind, as a message begins. GivenError."""
+    size = regular(path, what)
+    if size > most:
+        raise GivenError(
+            f"{what} {shown(path)} has {size} bytes; {most} are the most that are read. It is"
+            " probably another file."
+        )
+    try:
+        found = Path(path).read_bytes().decode()
+    except UnicodeDecodeError as error:
+        raise GivenError(
+            f"{what} {shown(path)} is not UTF-8 text (byte {error.start}). Save it as UTF-8, or"
+            " give another file."
+        ) from error
+    except OSError as error:
+        raise GivenError(f"{what} {shown(path)} cannot be read: {reason(error)}.") from error
+    if "\0" in found:
+        raise GivenError(
+            f"{what} {shown(path)} holds a NUL byte, so it is no text. Give another file."
+        )
+    return found
+
+
+def json_in(path: Path, what: str, most: int = MOST_TEXT) -> Any:
+    """What a JSON file holds. GivenError."""
+    try:
+        return json.loads(text(path, what, most))
+    except RecursionError as error:
+        raise GivenError(f"{what} {shown(path)} is nested too deeply to be read.") from error
+    except json.JSONDecodeError as error:
+        raise GivenError(f"{what} {shown(path)} is not valid JSON: {error}.") from error
+    except GivenError:
+        raise
+    except ValueError as error:  # a whole number of thousands of digits
+        raise GivenError(
+            f"{what} {shown(path)} holds a number that cannot be read: {clipped(str(error))}."
+        ) from error
+
+
+def reason(error: Exception) -> str:
+    return clipped(getattr(error, "strerror", None) or str(error))
+
+
+def printable(words: Any) -> str:
+    """Words from outside on one line, what cannot be printed escaped: a terminal obeys some
+    of it.
+    """
+    return "".join(
+        c if c.isprintable() else " " if c in "\n\t" else c.encode("unicode_escape").decode()
+        for c in str(words)
+    )
+
+
+def shown(words: Any) -> str:
+    return clipped(printable(words))
+
+
+def clipped(words: str, most: int = 300) -> str:
+    """On one line, and not a long one."""
+    line = " ".join(words.split())
+    return line if len(line) <= most else f"{line[: most - 40]}... ({len(line)} characters)"
+
+
+def markup(words: Any) -> str:
+    """Words from outside as rich prints them, and not as its markup."""
+    return escape(printable(words))

@@ -1,0 +1,120 @@
+"""What a run was made with, good enough to doubt a figure by."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+import subprocess
+import sys
+from datetime import UTC, datetime
+from importlib import metadata
+from pathlib import Path
+
+import psutil
+
+from baselines import registry
+from baselines.native import library
+from experiments.run.config import RunConfig
+
+LIBRARIES = ("numpy", "scipy", "pandas", "pyarrow", "python-flint", "trimesh", "coacd", "ofg")
+
+
+def machine() -> dict:
+    """Processor, frequency, memory, load, system: no name of the machine and no path."""
+    frequency = psutil.cpu_freq()
+    return {
+        "processor": _processor(),
+        "cores": os.cpu_count(),
+        "mhz": round(frequency.current) if frequency else None,
+        "memory_gib": round(psutil.virtual_memory().total / 2**30),
+        "load": [round(x, 2) for x in os.getloadavg()],
+        "system": platform.platform(),
+        "python": sys.version.split()[0],
+    }
+
+
+def versions(config: RunConfig) -> dict:
+    engines = {m.engine for spec in config.asked for m in registry.make(spec)}
+    return {name: version(name) for name in sorted(engines | set(LIBRARIES))}
+
+
+def build() -> dict:
+    """Compiler and flags of our own native code, and the instruction set it uses here."""
+    from ofg import _core
+
+    return {"compiler": _core.build, "isa": ("sse2", "avx2", "avx512")[_core.widest_isa()]}
+
+
+def commit() -> str:
+    """The commit of the checkout with '+' if files other than results differ from it; 'unknown'
+    outside a checkout.
+    """
+    root = Path(__file__).parent
+    try:
+        head = subprocess.run(
+            ["git", "rev-parse", "HEAD"], cwd=root, capture_output=True, text=True, check=True
+        ).stdout.strip()
+        dirty = subprocess.run(
+            ["git", "status", "--porcelain", "-uno", "--", ":/", ":(top,exclude)results"],
+            cwd=root,
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.strip()
+        return head + ("+" if dirty else "")
+    except (OSError, subprocess.CalledProcessError):
+        return "unknown"
+
+
+def now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+def version(name: str) -> str | None:
+    """Of an installed distribution, or of a library that the native lane built; None where there is
+    none.
+    """
+    if found := library.version(name):
+        return found
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return None
+
+
+def _processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+        return next(
+            line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")
+        )
+    except (OSError, StopIteration):
+        return platform.processor() or "unknown"
+
+
+#: what is made from the rows at any time, or tells of the machine: not data of the run
+DERIVED = {
+    "manifest.json",
+    "report.html",
+    "outcomes.parquet",
+    "workers.log",
+    "tables",
+    "figures",
+    "parts",
+}
+
+
+def hashes(folder: Path) -> dict[str, str]:
+    """SHA-256 (hex) of each data file of a run by its path in the folder. Links are not
+    followed.
+    """
+    found = {}
+    for path in sorted(Path(folder).rglob("*")):
+        name = path.relative_to(folder)
+        if name.parts[0] in DERIVED or name.parts[0].startswith("."):
+            continue
+        if path.is_file() and not path.is_symlink():
+            with path.open("rb") as stream:
+                found[name.as_posix()] = hashlib.file_digest(stream, "sha256").hexdigest()
+    return found

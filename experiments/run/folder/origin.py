@@ -1,0 +1,43 @@
+"""What a result comes from beside its configuration: the code, the libraries, a reader's own files.
+
+An unfinished run that goes on after an update must not mix answers of two states of the code; what
+an unchanged engine said is used again only while everything that it hangs on is the same.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+from functools import cache
+from pathlib import Path
+
+from . import manifest
+
+ROOT = Path(__file__).parents[3]
+PACKAGES = ("ofg", "baselines", "experiments")
+NATIVE = ("ofg._core", "experiments.truth.prove._native")
+CODE = (".py", ".csv")  # of baselines: units.csv, by which methods answer
+READERS = ("publish",)  # parts of `experiments` that only read finished runs
+
+
+def facts(engine: str | None = None) -> dict:
+    """The code and the versions of the libraries, and of one engine's distribution if named."""
+    names = (*manifest.LIBRARIES, *([engine] if engine else []))
+    return {"code": code(), "versions": {name: manifest.version(name) for name in names}}
+
+
+@cache
+def code() -> str:
+    """A digest of the project's own code, Python and compiled: the same for the same code only."""
+    found = hashlib.sha256()
+    paths = [
+        p
+        for name in PACKAGES
+        for p in sorted((ROOT / name).rglob("*"))
+        if p.suffix in CODE
+        and not (name == "experiments" and p.relative_to(ROOT / name).parts[0] in READERS)
+    ]
+    for path in [*paths, *(Path(importlib.util.find_spec(name).origin) for name in NATIVE)]:
+        content = hashlib.sha256(path.read_bytes()).hexdigest()
+        found.update(f"{path.name} {content}\n".encode())
+    return found.hexdigest()[:32]

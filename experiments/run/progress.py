@@ -1,0 +1,192 @@
+"""How far a run is and how long it will take: a bar per stage on a terminal, a line now and then
+elsewhere.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Callable, Iterator
+
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    TextColumn,
+    TimeElapsedColumn,
+)
+from rich.text import Text
+
+console = Console(stderr=True)
+LINE = 60.0  # seconds between lines where there is no terminal
+
+
+def say(text: str) -> None:
+    """A notice to the reader, beside the tables."""
+    console.print(text, markup=False, highlight=False)
+
+
+class Forecast:
+    """Seconds left of a run of several stages, from what was planned for each and how fast the work
+    has gone so far.
+
+    plan: stage -> seconds that its work is expected to take. A stage that knows better when it
+    begins says so. What is measured takes the place of the plan as the stage goes on; the stages to
+    come are scaled by how far off the plan was in those before.
+    """
+
+    def __init__(self, plan: dict[str, float], clock: Callable[[], float] = time.monotonic):
+        self.plan, self.clock = dict(plan), clock
+        self.done = dict.fromkeys(plan, 0.0)  # share of each stage
+        self.spent = dict.fromkeys(plan, 0.0)
+        self.already = dict.fromkeys(plan, 0.0)  # share that an earlier, interrupted run has done
+        self.foreseen: dict[
+            str, tuple[float, float]
+        ] = {}  # stage -> seconds left, and when that was said
+        self.current, self.since = None, 0.0
+        self.history: list[tuple[float, float]] = []  # seconds gone, seconds said to be left
+
+    def begin(self, name: str, seconds: float | None = None, skipped: float = 0.0) -> None:
+        """seconds: a better plan than there was. skipped: the share that an earlier, interrupted
+        run has done.
+        """
+        self.plan[name] = self.plan.get(name, 0.0) if seconds is None else seconds
+        self.done[name], self.already[name], self.spent[name] = skipped, skipped, 0.0
+        self.foreseen.pop(name, None)
+        self.current, self.since = name, self.clock()
+
+    def foresee(self, name: str, seconds: float) -> None:
+        """What is left of a stage, from somebody who knows better than plan and pace do; until it
+        is said anew, or the stage begins.
+        """
+        self.foreseen[name] = seconds, self.clock()
+
+    def advance(self, share: float) -> None:
+        self.done[self.current] = min(1.0, self.done[self.current] + share)
+        self.spent[self.current] = self.clock() - self.since
+        self.history.append((sum(self.spent.values()), self.left()))
+
+    def end(self) -> None:
+        self.done[self.current], self.spent[self.current] = 1.0, self.clock() - self.since
+        self.current = None
+
+    def left(self) -> float:
+        total = 0.0
+        for name, planned in self.plan.items():
+            todo = 1.0 - self.done[name]
+            if name in self.foreseen and todo:
+                seconds, said = self.foreseen[name]
+                total += max(0.0, seconds - (self.clock() - said if name == self.current else 0.0))
+            elif name == self.current:
+                since_told = self.clock() - self.since - self.spent[name]
+                total += max(0.0, todo * self._pace(planned) - since_told)
+            else:
+                total += todo * planned * (1.0 if self.spent[name] else self._slowness())
+        return total
+
+    def _slowness(self) -> float:
+        """Seconds taken over seconds planned so far, which the stages to come are scaled by; within
+        a factor of 4, as plans are rough.
+        """
+        planned = sum(
+            self.plan[name] * (self.done[name] - self.already[name])
+            for name in self.plan
+            if self.spent[name]
+        )
+        spent = sum(self.spent.values())
+        trust = min(1.0, spent / 10.0)  # nothing is to be learnt from the first seconds
+        return 1.0 + trust * (min(4.0, max(0.25, spent / planned)) - 1.0) if planned > 0 else 1.0
+
+    def _pace(self, planned: float) -> float:
+        """Seconds for the whole current stage: the plan at its beginning, what was measured once a
+        tenth of it is done.
+        """
+        gone = self.done[self.current] - self.already[self.current]
+        if gone <= 0:
+            return planned
+        trust = min(1.0, gone / 0.1)
+        return trust * self.spent[self.current] / gone + (1 - trust) * planned
+
+    def at_half(self) -> tuple[float, float] | None:
+        """What stood on the screen to be left in the middle of the time that the run took, and what
+        was; None for a run of a moment.
+        """
+        gone = sum(self.spent.values())
+        told = [(at, left) for at, left in self.history if at <= gone / 2]
+        return (
+            (max(0.0, told[-1][1] - (gone / 2 - told[-1][0])), gone / 2)
+            if told and gone > 1
+            else None
+        )
+
+
+class _Left(ProgressColumn):
+    def __init__(self, forecast: Forecast):
+        super().__init__()
+        self.forecast = forecast
+
+    def render(self, task) -> Text:
+        return Text(
+            "" if task.finished else f"run: {spoken(self.forecast.left())} left", style="cyan"
+        )
+
+
+_running: Forecast | None = None
+
+
+@contextlib.contextmanager
+def forecast(plan: dict[str, float]) -> Iterator[Forecast]:
+    """The stages inside are those of one run, whose time left is shown beside each."""
+    global _running
+    before, _running = _running, Forecast(plan)
+    try:
+        yield _running
+    finally:
+        _running = before
+
+
+@contextlib.contextmanager
+def stage(
+    title: str, total: float, done: float = 0.0, seconds: float | None = None
+) -> Iterator[Callable[[float], None]]:
+    """Yields advance(n), n of `total`. done: what was there already. seconds: what the stage is
+    expected to take, where it knows.
+    """
+    whole = _running or Forecast({title: seconds or 0.0})
+    whole.begin(title, seconds, done / total if total else 1.0)
+    columns = (
+        TextColumn("{task.description:<22}"),
+        BarColumn(28),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        _Left(whole),
+    )
+    last = whole.clock()
+    with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
+        bar = progress.add_task(title, total=total, completed=done)
+
+        def advance(n: float) -> None:
+            nonlocal last
+            progress.advance(bar, n)
+            whole.advance(n / total)
+            if not console.is_terminal and whole.clock() - last >= LINE:
+                last = whole.clock()
+                console.print(
+                    f"{escape(title)}: {100 * whole.done[title]:.0f} %; run: {spoken(whole.left())}"
+                    " left",
+                    highlight=False,
+                )
+
+        yield advance
+    whole.end()
+
+
+def spoken(seconds: float) -> str:
+    """'35 s', '12 min', '1 h 20 min'."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    minutes = round(seconds / 60)
+    return f"{minutes} min" if minutes < 60 else f"{minutes // 60} h {minutes % 60} min"

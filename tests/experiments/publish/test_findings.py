@@ -1,0 +1,610 @@
+"""The findings page: it is what the committed runs make, its verdicts turn when the rows do, and
+what is missing is said.
+"""
+
+import dataclasses
+import re
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from baselines import registry
+from experiments.analysis import metrics
+from experiments.cases import families
+from experiments.publish.findings import ends, objections
+from experiments.publish.findings import page as page_of
+from experiments.publish.findings.claims import CLAIMS, finding
+from experiments.publish.findings.engines import QUESTIONS
+from experiments.publish.findings.runs import (
+    FAILS,
+    HOLDS,
+    OPEN,
+    PART,
+    UNMEASURED,
+    Missing,
+    Rate,
+    Runs,
+    are_small,
+)
+from experiments.run import config, piece_truth
+from experiments.studies import sizes
+from ofg import Body, Motion, Pose, Query, ask
+
+RESULTS = Path(__file__).parents[3] / "results"
+N = 80  # cases of a kind: enough for a verdict
+
+
+class Fake(Runs):
+    """Runs in memory with methods and families of the catalogue; N cases of each family, answered
+    as told.
+
+    wrong(method, scenario, i): the answer is; late(method, i): its time is off by so much;
+    slow(method, level): net time; noise(method, level): of its floor; unknown: of the hits at an
+    end, how many name no faces that meet.
+    """
+
+    def __init__(
+        self,
+        wrong=lambda method, scenario, i: False,
+        label="hit",
+        late=lambda method, i: 0.0,
+        slow=lambda method, level: 1.0,
+        rows=None,
+        noise=lambda method, level: 0.0,
+        unknown=0,
+    ):
+        super().__init__("nowhere")
+        self.wrong, self.label, self.late, self.slow, self.rows = wrong, label, late, slow, rows
+        self.noise, self.unknown = noise, unknown
+
+    board = "standard"
+    finished = ()
+
+    def answers(self, run):
+        if run not in self._read:
+            self._read[run] = self._answers(config.load(run))
+        return self._read[run]
+
+    def _answers(self, chosen):
+        families = dict.fromkeys(
+            c.name for c in chosen.scenarios if c.name not in ("large_mesh", "real_motion")
+        )
+        cases = pd.DataFrame(
+            [
+                {
+                    "case": f"{name}/{i}",
+                    "scenario": name,
+                    "level": float(i % 3),
+                    "question": ASKED[name],
+                    "label": self.label,
+                    "start": "clear",
+                    "end": "clear",
+                    "gap": -0.5 if self.label == "hit" else 0.5,
+                    "t_lo": 0.5,
+                    "t_hi": 0.5,
+                    "size": 1.0,
+                    "faces": 12,
+                    "certificate": "",
+                    "tags": '{"place": "inside", "feature": "edge-edge"}',
+                }
+                for name in families
+                for i in range(N)
+            ]
+        )
+        methods = [
+            m.label
+            for spec in chosen.methods
+            if spec.startswith(("ofg", "brute", "fcl-convex-substeps"))
+            for m in registry.make(spec)
+        ]
+        answers = pd.DataFrame(
+            [
+                (
+                    m,
+                    c.case,
+                    "ok",
+                    (self.label == "hit") != self.wrong(m, c.scenario, int(c.case.split("/")[1])),
+                    0.5 + self.late(m, int(c.case.split("/")[1])),
+                    "",
+                )
+                for m in methods
+                for c in cases.itertuples()
+            ],
+            columns=["method", "case", "status", "hit", "time", "detail"],
+        )
+        return metrics.judge(answers, cases)
+
+    def bodies(self, run):
+        return dict.fromkeys(self.answers(run).case, "convex and mesh")
+
+    def known(self, run):
+        meet = [i >= self.unknown for i in range(N)]
+        found = ["end" if i % 2 else "start" for i in range(N)]
+        at_end = pd.DataFrame({"found": found, "meet": meet, "late": 0.5})
+        return pd.concat([at_end, at_end.assign(found="nothing", meet=False)])
+
+    def times(self, run):
+        levels, methods = (
+            (20.0, 320.0, 5120.0),
+            (
+                "ofg k=8",
+                "ofg k=64",
+                "brute-force",
+                "ofg k=8 repairs=all",
+                "ofg k=8 toi=bisection",
+            ),
+        )
+        return pd.DataFrame(
+            [
+                {
+                    "case": f"{level}/{i}",
+                    "method": m,
+                    "level": level,
+                    "question": "overlap",
+                    "situation": "near",
+                    "net": self.slow(m, level) * 1e3,
+                    "ns": self.slow(m, level) * 1e3,
+                    "noise": self.noise(m, level),
+                }
+                for m in methods
+                for level in levels
+                for i in range(5)
+            ]
+        )
+
+    def file(self, name):
+        if self.rows is None or ("cell" in self.rows) != name.startswith("bench-ofg"):
+            raise Missing(f"run {name.split('/')[0]} is missing")
+        return self.rows
+
+
+ASKED = {name: s.question for name, s in families.scenarios().items()}
+
+
+def of(title: str, runs):
+    return finding(next(c for c in CLAIMS if c.title.startswith(title)), runs)
+
+
+def said(title: str, runs) -> str:
+    return of(title, runs).verdict
+
+
+OF_MISSES = [  # the claim; whose answers decide it
+    ("Virtual edges stop", {"ofg k=8"}),
+    ("Virtual edges, the start", {"brute-force"}),
+    ("Step 1", {"ofg k=8 broad=start"}),
+    ("Chords", {"ofg k=8"}),
+    ("The pieces", {"ofg k=8"}),
+    ("Faces alone", {"brute-force"}),
+    ("Units", {"ofg k=8"}),
+    ("With all repairs", {"ofg k=8 repairs=all"}),
+]
+
+
+@pytest.mark.parametrize("title, methods", OF_MISSES)
+def test_a_verdict_turns_when_the_rows_do(title, methods):
+    assert said(title, Fake()) == HOLDS
+    assert said(title, Fake(lambda method, scenario, i: method in methods)) == FAILS
+    assert (
+        said(title, Fake(lambda method, scenario, i: method not in methods and i < N / 2)) == HOLDS
+    ), "others' misses decide nothing"
+
+
+@pytest.mark.parametrize(
+    "title, family",
+    [
+        ("Chords", "spin_side"),
+        ("The pieces", "linked_tori"),
+        ("Units", "sliver"),
+        ("Virtual edges stop", "screw_wall"),
+        ("With all repairs", "contained"),
+    ],
+)
+def test_one_bad_family_is_a_part(title, family):
+    assert said(title, Fake(lambda method, scenario, i: scenario == family)) == PART
+
+
+def test_a_higher_k():
+    def missed_under(bound):
+        return lambda method, scenario, i: (
+            method.startswith("ofg k=")
+            and " " not in method[4:]
+            and i < bound(float(method.split("=")[1]), scenario)
+        )
+
+    assert said("A higher k", Fake(missed_under(lambda k, scenario: 64 / k))) == HOLDS
+    assert said("A higher k", Fake(missed_under(lambda k, scenario: min(k, 512) / 8))) == FAILS
+    assert (
+        said(
+            "A higher k",
+            Fake(
+                missed_under(lambda k, scenario: 64 / k + 10 * (scenario == "sliver" and k == 16))
+            ),
+        )
+        == PART
+    )
+
+
+def test_false_alarms():
+    assert said("What it calls", Fake(label="clear")) == HOLDS
+    assert (
+        said("What it calls", Fake(lambda method, scenario, i: method == "ofg k=8", label="clear"))
+        == FAILS
+    )
+    assert (
+        said(
+            "What it calls",
+            Fake(
+                lambda method, scenario, i: scenario == "graze" or scenario == "contact",
+                label="clear",
+            ),
+        )
+        == PART
+    )
+
+
+def test_false_alarms_of_one_family_are_a_part():
+    many = Fake(lambda method, scenario, i: scenario == "graze" and i < N / 4, label="clear")
+    assert said("What it calls", many) == PART, "2 % of all, 25 % of the family"
+
+
+def test_it_says_which_bodies_the_repairs_were_asked_of():
+    text = of("With all repairs", Fake()).text
+    assert "convex and mesh" in text
+    assert all(c.name in text for c in config.load("repairs").scenarios)
+
+
+TRIANGLE = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]])
+
+
+@pytest.mark.parametrize("size", [1e-9, 1.0, 1e9])
+@pytest.mark.parametrize(
+    "other, meet",
+    [
+        (TRIANGLE + [0, 0, 1e-6], False),
+        (TRIANGLE + [0.3, 0.3, 0], True),
+        (TRIANGLE + [0.9, 0.9, 0], False),
+        (np.array([[0.1, 0.1, -1], [0.1, 0.1, 1], [2, 2, 2]]), True),
+        (np.array([[1.1, 0.1, -1], [1.1, 0.1, 1], [2, 2, 2]]), False),
+    ],
+)
+def test_two_triangles_meet(size, other, meet):
+    assert ends.touch(TRIANGLE * size, other * size) == meet
+    assert ends.touch(other * size, TRIANGLE * size) == meet
+
+
+def test_faces_that_are_named_at_the_end_meet_there():
+    cube = Body.convex(np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float))
+    path = Motion((-1.5, 0, 0))
+    query = Query("translation", cube, cube, Pose(position=(2, 0.3, 0.4)), Pose(), path)
+    answer = ask(query, k=8)
+    assert answer.found == "end" and ends.meets(query, answer)
+    swapped = dataclasses.replace(answer, found="start")
+    assert not ends.meets(query, swapped), "nothing meets where the step begins"
+
+
+def test_an_undivided_counterexample_is_one():
+    assert said("Some concave", Fake()) == FAILS, "nothing missed: no counterexample"
+    assert said("Some concave", Fake(lambda method, scenario, i: i == 7)) == HOLDS
+
+
+OFF = [(0.0, 1.0, HOLDS), (0.1, 1.0, FAILS), (0.1, 0.3, PART), (0.1, 0.01, HOLDS)]
+NEVER = float("nan")
+
+
+@pytest.mark.parametrize("off, share, verdict", [*OFF, (NEVER, 1.0, FAILS), (NEVER, 0.3, PART)])
+def test_times_of_impact(off, share, verdict):
+    runs = Fake(late=lambda method, i: off if i < share * N else 0.0)
+    assert said("Relative velocity", runs) == said("Halving", runs) == verdict
+
+
+@pytest.mark.parametrize(
+    "title, one, other",
+    [
+        ("Relative", "ofg k=8", "ofg k=8 order=steps"),
+        ("Halving", "ofg k=8 toi=halving", "ofg k=8 toi=bisection"),
+    ],
+)
+def test_one_reading_of_two_is_a_part(title, one, other):
+    assert said(title, Fake(late=lambda method, i: 0.1 * (method == one))) == PART
+    assert said(title, Fake(late=lambda method, i: 0.1 * (method == other))) == PART
+    assert said(title, Fake(late=lambda method, i: 0.1 * (method not in (one, other)))) == HOLDS
+
+
+def test_hits_at_an_end_are_no_estimates():
+    """Half of the times are 1, which is half a step late: of OFG that is where the step ends."""
+    late = lambda end: Fake(late=lambda method, i: end if i % 2 else 0.0)  # noqa: E731
+    for title in ("Relative velocity", "Halving"):
+        assert said(title, late(0.5)) == HOLDS and said(title, late(0.4999)) == PART
+    families = len(config.load("impact").scenarios)
+    assert f"n={families * N // 2}" in of("Halving", late(0.5)).number
+
+
+def test_an_estimate_that_comes_out_as_the_end_is_still_one():
+    def late(method, i):
+        return 0.5 * ("bisection" in method)
+
+    number = of("Halving", Fake(late=late)).number
+    hits = len(config.load("impact").scenarios) * N
+    assert number.count(f"n={hits}") == 2 and said("Halving", Fake(late=late)) == PART
+
+
+def test_hits_without_a_time_are_counted_and_shown():
+    runs = Fake(late=lambda method, i: NEVER if i < N / 4 else 0.0)
+    hits = len(config.load("impact").scenarios) * N
+    number = of("Halving", runs).number
+    assert number.count(f"{hits // 4} of {hits} hits without a time") == 2
+
+
+def test_faces_at_an_end_are_known():
+    assert said("Faces that meet at the start", Fake(unknown=0)) == HOLDS
+    assert said("Faces that meet at the start", Fake(unknown=N // 2)) == FAILS
+    late = Fake(late=lambda method, i: 0.5, wrong=lambda method, scenario, i: True)
+    assert said("Faces that meet at the start", late) == HOLDS, "how late is no verdict"
+
+
+@pytest.mark.parametrize(
+    "slow, verdict",
+    [
+        (lambda m, level: 10.0 if m == "brute-force" else 1.0, HOLDS),
+        (lambda m, level: 0.5 if m == "brute-force" else 1.0, FAILS),
+        (lambda m, level: level / 100 if m == "brute-force" else 1.0, PART),
+    ],
+)
+def test_cheaper_than_all_pairs(slow, verdict):
+    assert said("Cheaper", Fake(slow=slow)) == verdict
+
+
+def test_cells_within_the_noise_decide_nothing():
+    def slow(m, level):  # slower than all pairs at the fewest faces
+        return 1.0 if m == "brute-force" else 2.0 if level == 20 else 0.5
+
+    def noise(m, level):
+        return 2000.0 if m == "ofg k=8" and level == 20 else 0.0
+
+    assert said("Cheaper", Fake(slow=slow)) == PART
+    assert said("Cheaper", Fake(slow=slow, noise=noise)) == HOLDS
+    number = of("Cheaper", Fake(slow=slow, noise=noise)).number
+    assert "2 of 2 cells" in number and "left out: 1 of 3 cells" in number
+    assert said("Cheaper", Fake(noise=lambda m, level: 2000.0)) == UNMEASURED
+
+
+def native(own: float, small: float) -> pd.DataFrame:
+    return pd.DataFrame(
+        [
+            {"situation": "apart", "faces": f, "method": m, "native": ns}
+            for f, s in ((12, small), (320, 1.0))
+            for m, ns in (
+                ("ofg k=8", own),
+                ("ofg k=4", 0.1),
+                ("fcl-convex", 100 * s),
+                ("parry", 200.0),
+            )
+        ]
+    )
+
+
+def test_faster_than_the_engines():
+    assert said("Faster", Fake(rows=native(50, 1))) == HOLDS
+    assert said("Faster", Fake(rows=native(50, 0.1))) == PART
+    assert said("Faster", Fake(rows=native(500, 1))) == FAILS
+
+
+ASKED_ENGINES = ("FCL libccd", "Bullet GjkPair", "MuJoCo native", "parry", "Coal convex")
+
+
+def bench(own: float, small: float, engines=ASKED_ENGINES) -> pd.DataFrame:
+    return pd.DataFrame(
+        [
+            {"cell": f"{f}-hull/gap", "method": m, "round": r, "nanoseconds": ns}
+            for f, s in ((12, small), (320, 1.0))
+            for r in range(3)
+            for m, ns in (
+                ("OFG double k=8 screened in batch", own),
+                ("OFG double k=8", 50.0),
+                *((e, 100 * s) for e in engines),
+            )
+        ]
+    )
+
+
+def test_screened_in_batch():
+    assert said("At small gaps", Fake(rows=bench(15, 1))) == HOLDS
+    assert said("At small gaps", Fake(rows=bench(15, 0.2))) == PART
+    assert said("At small gaps", Fake(rows=bench(60, 1))) == FAILS
+
+
+@pytest.mark.parametrize("engines", [ASKED_ENGINES[:3], ASKED_ENGINES[:4]])
+def test_an_engine_that_was_not_asked_leaves_a_part(engines):
+    assert said("At small gaps", Fake(rows=bench(15, 1, engines))) == PART
+    assert said("At small gaps", Fake(rows=bench(60, 1, engines))) == FAILS
+    assert "Coal not asked" in of("At small gaps", Fake(rows=bench(15, 1, engines))).number
+
+
+def test_the_fastest_of_all_engines_is_the_measure():
+    rows = bench(15, 1)
+    rows.loc[rows.method == "parry", "nanoseconds"] = 20.0
+    assert said("At small gaps", Fake(rows=rows)) == FAILS
+
+
+def hulls(missed, pairs=lambda question, k: k * k, distances=2.0, evaluated=1) -> pd.DataFrame:
+    """Rows of the claims run; missed(faces, depth): how many of N."""
+    made = []
+    for faces in sizes.FACES:
+        for k in (*(k for k in sizes.KS if k < faces), faces):
+            for question, depth in (
+                ("overlap", "shallow"),
+                ("overlap", "deep"),
+                ("translation", ""),
+                ("motion", ""),
+            ):
+                made += [
+                    {
+                        "question": question,
+                        "faces": faces,
+                        "depth": depth,
+                        "case": i,
+                        "k": k,
+                        "repairs": False,
+                        "hit": k == faces or i >= missed(faces, depth),
+                        "distances": distances * faces,
+                        "face_pairs": pairs(question, k),
+                        "edge_faces": 0,
+                        "full_tests": min(1, pairs(question, k)),
+                        "evaluated": evaluated * faces,
+                    }
+                    for i in range(N)
+                ]
+    return pd.DataFrame(made)
+
+
+@pytest.mark.parametrize(
+    "title, good, bad",
+    [
+        ("k of 4 to 8", hulls(lambda f, d: 0), hulls(lambda f, d: 50)),
+        (
+            "Small faces",
+            hulls(lambda f, d: 0 if f < 1000 else 50),
+            hulls(lambda f, d: 50 if f < 1000 else 0),
+        ),
+        (
+            "Best for convex",
+            hulls(lambda f, d: 0 if f < 1000 else 50),
+            hulls(lambda f, d: 50 if f < 1000 else 0),
+        ),
+        (
+            "Once bodies",
+            hulls(lambda f, d: 50 * (d == "deep")),
+            hulls(lambda f, d: 50 * (d == "shallow")),
+        ),
+        ("Selecting faces", hulls(lambda f, d: 0), hulls(lambda f, d: 0, distances=2.1)),
+        ("At most k^2", hulls(lambda f, d: 0), hulls(lambda f, d: 0, lambda q, k: k * k + 1)),
+        ("Selecting faces", hulls(lambda f, d: 0), hulls(lambda f, d: 0, evaluated=5)),
+        ("k^2 + 3k", hulls(lambda f, d: 0), hulls(lambda f, d: 0, lambda q, k: 5 * k * k)),
+    ],
+)
+def test_sizes_and_operations(title, good, bad):
+    assert said(title, Fake(rows=good)) == HOLDS and said(title, Fake(rows=bad)) == FAILS
+
+
+def test_sweeps_have_no_part_in_the_count_of_overlap():
+    swept = hulls(lambda f, d: 0, lambda q, k: k * k if q == "overlap" else 5 * k * k)
+    assert said("k^2 + 3k", Fake(rows=swept)) == HOLDS
+
+
+def test_every_claim_is_turned_by_some_test():
+    tried = [t for t, _ in OF_MISSES] + [
+        "A higher k",
+        "What it calls",
+        "Faces that meet at the start",
+        "Some concave",
+        "Relative",
+        "Halving",
+        "Cheaper",
+        "Faster",
+        "At small gaps",
+        "k of",
+        "Small",
+        "Best",
+        "Once",
+        "Selecting",
+        "At most",
+        "k^2",
+    ]
+    assert all(any(c.title.startswith(t) for t in tried) for c in CLAIMS)
+
+
+RATES = st.lists(
+    st.tuples(st.integers(0, 60), st.integers(0, 60)).map(lambda t: (t[0], t[0] + t[1] + 1)),
+    min_size=1,
+    max_size=4,
+)
+
+
+@given(RATES, st.data())
+def test_one_more_miss_makes_no_verdict_better(counts, data):
+    def judged(counts):
+        return are_small([Rate(c, n, *metrics.wilson(c, n)) for c, n in counts])
+
+    i = data.draw(st.integers(0, len(counts) - 1))
+    c, n = counts[i]
+    worse = [*counts[:i], (min(c + 1, n), n), *counts[i + 1 :]]
+    order = [HOLDS, OPEN, PART, FAILS]
+    assert order.index(judged(worse)) >= order.index(judged(counts))
+
+
+def test_few_cases_say_nothing():
+    assert are_small([Rate(0, 3, *metrics.wilson(0, 3))]) == OPEN
+
+
+def test_what_is_missing_is_said(tmp_path):
+    text = page_of(tmp_path)
+    assert text.count(f"| **{UNMEASURED}** |") == len(CLAIMS)
+    for run in ("k", "faces", "rotation", "standard", "sizes", "native"):
+        assert f"run {run} is missing" in text
+
+
+def test_a_run_cut_short_is_said(tmp_path):
+    (tmp_path / "rotation").mkdir()
+    assert said("Chords", Runs(tmp_path)) == UNMEASURED
+    assert "run rotation is not finished" in page_of(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def page():
+    return page_of(RESULTS)
+
+
+def test_the_committed_page_is_what_the_committed_runs_make(page):
+    assert (RESULTS / "README.md").read_text() == page, (
+        "build it anew: ofg-bench findings results --into results/README.md"
+    )
+
+
+def test_it_is_short_and_its_links_lead_somewhere(page):
+    assert len(page.splitlines()) < 320
+    for target in re.findall(r"\]\(([^)#]+)\)", page):
+        assert (RESULTS / target).exists(), target
+    for target in re.findall(r"\]\(#([^)]+)\)", page):
+        assert f'id="{target}"' in page or f"## {target.replace('-', ' ')}\n" in page.lower(), (
+            target
+        )
+
+
+def test_its_engine_tables_are_the_accuracy_tables(page):
+    board = Runs(RESULTS).board
+    for question in QUESTIONS:
+        csv = RESULTS / board / "tables" / f"accuracy-{question}.csv"
+        if not csv.exists():
+            pytest.skip("no run has every family")
+        for row in pd.read_csv(csv).itertuples():
+            if row.answered and row.method != piece_truth.NAME:  # no engine
+                cell = str(Rate(row.misses, row.hits, row.miss_low, row.miss_high))
+                assert any(
+                    line.startswith(f"| {row.method} |") and cell in line
+                    for line in page.splitlines()
+                ), (
+                    row.method,
+                    cell,
+                )
+
+
+def test_the_committed_objections_are_what_the_committed_runs_make():
+    assert (RESULTS / "OBJECTIONS.md").read_text() == objections.page(Runs(RESULTS))
+
+
+def test_each_of_the_ten_objections_is_measured():
+    page = objections.page(Runs(RESULTS))
+    assert (
+        len(objections.OBJECTIONS) == 10
+        and page.count("Command: `") == 10
+        and "not measured" not in page
+    )
+
+
+def test_an_objection_without_its_run_says_so(tmp_path):
+    assert "not measured" in objections.page(Runs(tmp_path))
