@@ -69,7 +69,8 @@ inline void check_motions(const Doubles& rows, std::size_t n, const char* what) 
   require(fine, std::string(what) + " holds a length, an axis or an angle that is out of range");
 }
 // What single precision is given is relative; beyond its range it would be infinite.
-inline void check_float(const double* pa, const double* pb, const double* ma, const double* mb, std::size_t n) {
+inline void check_float(const double* pa, const double* pb, const double* ma, const double* mb,
+                        std::size_t n) {
   bool fine = true;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 4; j < pose_columns; ++j)
@@ -78,17 +79,22 @@ inline void check_float(const double* pa, const double* pb, const double* ma, co
     for (std::size_t j = 0; j < 3; ++j) fine &= std::abs(m[j] - o[j]) <= longest_float;
     fine &= largest(m + 7, 3) <= longest_float && largest(o + 7, 3) <= longest_float;
   }
-  require(fine, "a relative position, a displacement or a point turned about is out of the range of single precision");
+  require(fine,
+          "a relative position, a displacement or a point turned about is out of the range of "
+          "single precision");
 }
 inline void check_mesh(const Doubles& v, const Ints& f) {
   check_width(v, 3, "vertices");
   check_finite(v, "vertices");
   require(f.shape(1) == 3, "faces must have 3 columns");
   require(v.shape(0) > 0 && f.shape(0) > 0, "a body needs a vertex and a face");
-  require(v.shape(0) <= most_rows && f.shape(0) <= most_rows, "a body has too many vertices or faces");
-  require(largest(v.data(), v.size()) <= longest, "vertices hold a coordinate that is out of range");
+  require(v.shape(0) <= most_rows && f.shape(0) <= most_rows,
+          "a body has too many vertices or faces");
+  require(largest(v.data(), v.size()) <= longest,
+          "vertices hold a coordinate that is out of range");
   bool there = true;
-  for (std::size_t i = 0; i < f.size(); ++i) there &= f.data()[i] >= 0 && std::size_t(f.data()[i]) < v.shape(0);
+  for (std::size_t i = 0; i < f.size(); ++i)
+    there &= f.data()[i] >= 0 && std::size_t(f.data()[i]) < v.shape(0);
   require(there, "faces name a vertex that is not there");
 }
 

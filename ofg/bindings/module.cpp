@@ -27,7 +27,8 @@ struct Solid {
   ofg::Body<float> coarse;
   bool has_coarse;
 
-  Solid(Doubles v, Ints f, bool convex, const std::vector<Doubles>& pv, const std::vector<Ints>& pf) {
+  Solid(Doubles v, Ints f, bool convex, const std::vector<Doubles>& pv,
+        const std::vector<Ints>& pf) {
     check_mesh(v, f);
     require(pv.size() == pf.size(), "piece_vertices and piece_faces must be of one length");
     for (std::size_t i = 0; i < pv.size(); ++i) check_mesh(pv[i], pf[i]);
@@ -44,8 +45,8 @@ struct Solid {
   }
 
   template <class T>
-  static void fill(ofg::Body<T>& body, const Doubles& v, const Ints& f, bool convex, const std::vector<Doubles>& pv,
-                   const std::vector<Ints>& pf) {
+  static void fill(ofg::Body<T>& body, const Doubles& v, const Ints& f, bool convex,
+                   const std::vector<Doubles>& pv, const std::vector<Ints>& pf) {
     body.whole = ofg::Mesh<T>(v.data(), v.shape(0), f.data(), f.shape(0), convex);
     for (std::size_t i = 0; i < pv.size(); ++i)
       body.pieces.emplace_back(pv[i].data(), pv[i].shape(0), pf[i].data(), pf[i].shape(0), true);
@@ -69,22 +70,26 @@ Algorithm algorithm_of(int how) {
 }
 
 void check_options(const ofg::Options& o) {
-  const bool words = int(o.toi) >= 0 && int(o.toi) < 4 && int(o.order) >= 0 && int(o.order) < 2 && int(o.broad) >= 0 && int(o.broad) < 2 &&
-                     int(o.concave) >= 0 && int(o.concave) < 3 && int(o.nearest) >= 0 &&
-                     int(o.nearest) < 2;
-  const bool numbers = o.k >= 1 && o.selection_times >= 1 && o.selection_times <= 3 && o.piece_times >= 1 &&
-                       o.piece_times <= 3 && o.iterations >= 1 && o.iterations <= 60;
-  require(words && numbers && o.arc_tolerance >= 0 && o.arc_tolerance < 1, "an option is out of range");
+  const bool words = int(o.toi) >= 0 && int(o.toi) < 4 && int(o.order) >= 0 && int(o.order) < 2 &&
+                     int(o.broad) >= 0 && int(o.broad) < 2 && int(o.concave) >= 0 &&
+                     int(o.concave) < 3 && int(o.nearest) >= 0 && int(o.nearest) < 2;
+  const bool numbers = o.k >= 1 && o.selection_times >= 1 && o.selection_times <= 3 &&
+                       o.piece_times >= 1 && o.piece_times <= 3 && o.iterations >= 1 &&
+                       o.iterations <= 60;
+  require(words && numbers && o.arc_tolerance >= 0 && o.arc_tolerance < 1,
+          "an option is out of range");
 }
 
 template <class T>
-ofg::Answer ask(Algorithm how, bool moving, const Solid& a, const Solid& b, const ofg::Track& track, const ofg::Options& o,
-                ofg::Workspace<T>& w) {
+ofg::Answer ask(Algorithm how, bool moving, const Solid& a, const Solid& b, const ofg::Track& track,
+                const ofg::Options& o, ofg::Workspace<T>& w) {
   const auto &ba = a.as<T>(), &bb = b.as<T>();
   if (how == Algorithm::brute_force)
-    return moving ? ofg::brute_force::sweep(ba, bb, track) : ofg::brute_force::overlap(ba, bb, track);
+    return moving ? ofg::brute_force::sweep(ba, bb, track)
+                  : ofg::brute_force::overlap(ba, bb, track);
   if (how == Algorithm::article)
-    return moving ? ofg::article::sweep(ba, bb, track, o, w) : ofg::article::overlap(ba, bb, track, o, w);
+    return moving ? ofg::article::sweep(ba, bb, track, o, w)
+                  : ofg::article::overlap(ba, bb, track, o, w);
   return moving ? ofg::sweep(ba, bb, track, o, w) : ofg::overlap(ba, bb, track, o, w);
 }
 
@@ -103,15 +108,16 @@ struct Prepared {
   Algorithm how;
   bool moving, single;
 
-  // One for all, so that the memory of a query is as warm as in a loop over many; the interpreter lock is held while it is used.
+  // One for all, so that the memory of a query is as warm as in a loop over many; the interpreter
+  // lock is held while it is used.
   template <class T>
   static ofg::Workspace<T>& workspace() {
     static ofg::Workspace<T> shared;
     return shared;
   }
 
-  Prepared(nb::object oa, nb::object ob, Doubles poses, Doubles motions, const ofg::Options& o, int how_, bool moving_,
-           bool single_)
+  Prepared(nb::object oa, nb::object ob, Doubles poses, Doubles motions, const ofg::Options& o,
+           int how_, bool moving_, bool single_)
       : keep_a(oa),
         keep_b(ob),
         a(solid_of(oa)),
@@ -127,7 +133,8 @@ struct Prepared {
     check_options(o);
     a.check(single), b.check(single);
     if (single)
-      check_float(poses.data(), poses.data() + pose_columns, motions.data(), motions.data() + motion_columns, 1);
+      check_float(poses.data(), poses.data() + pose_columns, motions.data(),
+                  motions.data() + motion_columns, 1);
     if (single)
       workspace<float>().reserve(a.coarse, b.coarse);
     else
@@ -164,12 +171,14 @@ void count(const ofg::Counts& c, std::int64_t* to) {
 }
 
 template <class T>
-void ask_range(Algorithm how, bool moving, const Solid& a, const Solid& b, const double* pa, const double* pb, const double* ma,
-               const double* mb, const ofg::Options& o, std::size_t from, std::size_t to, ofg::Answer* out) {
+void ask_range(Algorithm how, bool moving, const Solid& a, const Solid& b, const double* pa,
+               const double* pb, const double* ma, const double* mb, const ofg::Options& o,
+               std::size_t from, std::size_t to, ofg::Answer* out) {
   ofg::Workspace<T> w;
   w.reserve(a.as<T>(), b.as<T>());
   if (how == Algorithm::ofg && !moving) {
-    const auto *p = reinterpret_cast<const ofg::Pose*>(pa), *q = reinterpret_cast<const ofg::Pose*>(pb);
+    const auto *p = reinterpret_cast<const ofg::Pose*>(pa),
+               *q = reinterpret_cast<const ofg::Pose*>(pb);
     ofg::overlap_many(a.as<T>(), b.as<T>(), p + from, q + from, to - from, o, w, out + from);
     return;
   }
@@ -189,15 +198,16 @@ nb::ndarray<nb::numpy, T> array(std::vector<std::size_t> shape, T*& data) {
   return nb::ndarray<nb::numpy, T>(data, shape.size(), shape.data(), owner);
 }
 
-nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubles ma, Doubles mb, const ofg::Options& o, int how,
-                   bool moving, bool single, int threads) {
+nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubles ma, Doubles mb,
+                   const ofg::Options& o, int how, bool moving, bool single, int threads) {
   const std::size_t n = pa.shape(0);
   check_poses(pa, n, "poses_a"), check_poses(pb, n, "poses_b");
   check_motions(ma, n, "motions_a"), check_motions(mb, n, "motions_b");
   check_options(o);
   a.check(single), b.check(single);
   if (single) check_float(pa.data(), pb.data(), ma.data(), mb.data(), n);
-  require(threads >= 1 && threads <= most_threads, "threads must be 1 to " + std::to_string(most_threads));
+  require(threads >= 1 && threads <= most_threads,
+          "threads must be 1 to " + std::to_string(most_threads));
   const Algorithm algorithm = algorithm_of(how);
   std::vector<ofg::Answer> answers(n);
   {
@@ -259,7 +269,8 @@ nb::ndarray<nb::numpy, bool> triangles_meet(Doubles pairs) {
   return out;
 }
 
-// The support function by table, relative to the centre in units of the radius: a point per axis. For the tests.
+// The support function by table, relative to the centre in units of the radius: a point per axis.
+// For the tests.
 nb::ndarray<nb::numpy, double> least_points(const Solid& solid, Doubles axes) {
   check_width(axes, 3, "axes");
   double* points;
@@ -292,8 +303,7 @@ NB_MODULE(_core, m) {
         require(isa >= 0 && isa <= 2, "isa must be 0 (SSE2), 1 (AVX2) or 2 (AVX-512)");
         return ofg::set_isa(ofg::Isa(isa));
       },
-      "isa"_a,
-      "0: SSE2, 1: AVX2, 2: AVX-512. False where the machine lacks it.");
+      "isa"_a, "0: SSE2, 1: AVX2, 2: AVX-512. False where the machine lacks it.");
   m.def("widest_isa", [] { return int(ofg::widest_isa()); });
   m.attr("build") = OFG_BUILD;
   m.def("triangles_meet", &triangles_meet<double>, "pairs"_a);
@@ -301,15 +311,17 @@ NB_MODULE(_core, m) {
   m.def("least_points", &least_points, "solid"_a, "axes"_a);
   m.def("strays", &strays, "a"_a, "b"_a, "poses"_a, "motions"_a, "share"_a);
   nb::class_<Solid>(m, "Solid")
-      .def(nb::init<Doubles, Ints, bool, const std::vector<Doubles>&, const std::vector<Ints>&>(), "vertices"_a, "faces"_a,
-           "convex"_a, "piece_vertices"_a, "piece_faces"_a);
+      .def(nb::init<Doubles, Ints, bool, const std::vector<Doubles>&, const std::vector<Ints>&>(),
+           "vertices"_a, "faces"_a, "convex"_a, "piece_vertices"_a, "piece_faces"_a);
   nb::class_<ofg::Options>(m, "Options")
       .def(nb::init<>())
       .def_rw("k", &ofg::Options::k)
       .def_prop_rw(
-          "toi", [](const ofg::Options& o) { return int(o.toi); }, [](ofg::Options& o, int v) { o.toi = ofg::Toi(v); })
+          "toi", [](const ofg::Options& o) { return int(o.toi); },
+          [](ofg::Options& o, int v) { o.toi = ofg::Toi(v); })
       .def_prop_rw(
-          "broad", [](const ofg::Options& o) { return int(o.broad); }, [](ofg::Options& o, int v) { o.broad = ofg::Broad(v); })
+          "broad", [](const ofg::Options& o) { return int(o.broad); },
+          [](ofg::Options& o, int v) { o.broad = ofg::Broad(v); })
       .def_prop_rw(
           "concave", [](const ofg::Options& o) { return int(o.concave); },
           [](ofg::Options& o, int v) { o.concave = ofg::Concave(v); })
@@ -331,9 +343,10 @@ NB_MODULE(_core, m) {
       .def_rw("earliest", &ofg::Options::earliest)
       .def_rw("screen", &ofg::Options::screen);
   nb::class_<Prepared>(m, "Prepared")
-      .def(nb::init<nb::object, nb::object, Doubles, Doubles, const ofg::Options&, int, bool, bool>(), "a"_a, "b"_a, "poses"_a,
-           "motions"_a, "options"_a, "algorithm"_a, "moving"_a, "single"_a)
+      .def(nb::init<nb::object, nb::object, Doubles, Doubles, const ofg::Options&, int, bool,
+                    bool>(),
+           "a"_a, "b"_a, "poses"_a, "motions"_a, "options"_a, "algorithm"_a, "moving"_a, "single"_a)
       .def("__call__", &Prepared::call, "(hit, time)");
-  m.def("ask_many", &ask_many, "a"_a, "b"_a, "poses_a"_a, "poses_b"_a, "motions_a"_a, "motions_b"_a, "options"_a, "algorithm"_a,
-        "moving"_a, "single"_a, "threads"_a);
+  m.def("ask_many", &ask_many, "a"_a, "b"_a, "poses_a"_a, "poses_b"_a, "motions_a"_a, "motions_b"_a,
+        "options"_a, "algorithm"_a, "moving"_a, "single"_a, "threads"_a);
 }

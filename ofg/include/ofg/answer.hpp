@@ -13,11 +13,14 @@ struct Counts {
   std::int64_t edge_faces = 0;  // virtual edges against faces
   std::int64_t edge_pairs = 0;  // moving edges against edges (a repair)
   std::int64_t full_tests = 0;  // of face_pairs, those that no cheap rejection settled
-  std::int64_t evaluated = 0;   // distances computed to settle `distances`: to boxes of blocks and to faces
-  std::int64_t steps = 0;       // parts the step was cut into, and halvings of a bisection
+  std::int64_t evaluated =
+      0;  // distances computed to settle `distances`: to boxes of blocks and to faces
+  std::int64_t steps = 0;  // parts the step was cut into, and halvings of a bisection
   void add(const Counts& c) {
-    spheres += c.spheres, distances += c.distances, face_pairs += c.face_pairs, edge_faces += c.edge_faces;
-    edge_pairs += c.edge_pairs, full_tests += c.full_tests, evaluated += c.evaluated, steps += c.steps;
+    spheres += c.spheres, distances += c.distances, face_pairs += c.face_pairs,
+        edge_faces += c.edge_faces;
+    edge_pairs += c.edge_pairs, full_tests += c.full_tests, evaluated += c.evaluated,
+        steps += c.steps;
   }
 };
 
@@ -36,7 +39,8 @@ enum class Found : std::int8_t {
 
 struct Answer {
   bool hit = false;
-  double time = std::numeric_limits<double>::quiet_NaN();  // of impact, in [0, 1]; NaN where the method gives none
+  double time = std::numeric_limits<double>::quiet_NaN();  // of impact, in [0, 1]; NaN where the
+                                                           // method gives none
   Found found = Found::nothing;
   int face_a = -1, face_b = -1;    // the faces that met, in their pieces; -1 where no face did
   int piece_a = -1, piece_b = -1;  // the pieces asked last; -1 for an undivided mesh

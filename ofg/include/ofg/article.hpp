@@ -1,6 +1,7 @@
-// The article, step by step, as its author wrote it: plain loops, no bound, no rejection, no repair. Kara, "Opposing Face
-// Geometry", GameDev.net 2004. ARTICLE.md beside the library names for each of his sentences the function here that does it.
-// `ofg::overlap` and `ofg::sweep` give the same answers with accelerations; a test and the fuzzer compare them.
+// The article, step by step, as its author wrote it: plain loops, no bound, no rejection, no
+// repair. Kara, "Opposing Face Geometry", GameDev.net 2004. ARTICLE.md beside the library names for
+// each of his sentences the function here that does it. `ofg::overlap` and `ofg::sweep` give the
+// same answers with accelerations; a test and the fuzzer compare them.
 #pragma once
 #include "ofg.hpp"
 
@@ -19,16 +20,18 @@ struct Objects {
   ofg::detail::Window<T> step() const { return {0, 1, start, end}; }
 };
 
-// Step 1. Bounding spheres of the objects apart: no collision. Of moving objects at the start, read literally; `Broad::swept` has
-// the spheres swept along the motion.
+// Step 1. Bounding spheres of the objects apart: no collision. Of moving objects at the start, read
+// literally; `Broad::swept` has the spheres swept along the motion.
 template <class T>
 bool bounding_spheres_apart(Objects<T>& o, bool moving) {
   ++o.answer.counts.spheres;
   if (moving && o.options.broad == Broad::swept) {
-    const double room = rounding<T> * (length(o.start.p) + length(o.end.p) + 2 * (o.a.extent + o.b.extent + o.track.arms()));
+    const double room = rounding<T> * (length(o.start.p) + length(o.end.p) +
+                                       2 * (o.a.extent + o.b.extent + o.track.arms()));
     return ofg::detail::swept_spheres_apart(o.a, o.b, o.track, 0, 1, room);
   }
-  const Vec3<double> between = o.track.between(Vec3<double>(o.a.centre), Vec3<double>(o.b.centre), 0);
+  const Vec3<double> between =
+      o.track.between(Vec3<double>(o.a.centre), Vec3<double>(o.b.centre), 0);
   const double slack = rounding<T> * (length(o.start.p) + o.a.extent + o.b.extent + o.track.arms());
   return ofg::detail::spheres_apart(between, double(o.a.radius) + double(o.b.radius) + slack);
 }
@@ -57,7 +60,8 @@ void find_radius(const Mesh<T>& m, Selection<T>& s) {
   T most = 0;
   for (const auto& face : s.near) {
     const Triangle<T> t = m.triangle(face.face);
-    for (const Vec3<T>& v : {t.a, t.b, t.c}) most = std::fmax(most, dot(v - s.centre, v - s.centre));
+    for (const Vec3<T>& v : {t.a, t.b, t.c})
+      most = std::fmax(most, dot(v - s.centre, v - s.centre));
   }
   s.radius = std::sqrt(most) + rounding<T> * m.extent;
 }
@@ -83,8 +87,9 @@ bool selection_spheres_apart(Objects<T>& o) {
   return ofg::detail::spheres_apart(between, double(o.w.a.radius) + double(o.w.b.radius) + slack);
 }
 
-// Step 8. Face against face, the closest first, until two meet. A is at `pose` in B's frame. scale: a bound on all coordinates,
-// which tells rounding from distance; lengths are taken in a unit of it, so that no product leaves the range of numbers.
+// Step 8. Face against face, the closest first, until two meet. A is at `pose` in B's frame. scale:
+// a bound on all coordinates, which tells rounding from distance; lengths are taken in a unit of
+// it, so that no product leaves the range of numbers.
 template <class T>
 bool faces_meet(Objects<T>& o, const Transform<double>& pose, T scale) {
   const T unit = unit_for(scale);
@@ -101,12 +106,14 @@ bool faces_meet(Objects<T>& o, const Transform<double>& pose, T scale) {
   return false;
 }
 
-// Moving objects, steps 3 and 4: each vertex of A's selection is joined with its copy at the end of the step, rotated before it
-// is translated, and this virtual edge is tested against B's selection. Stops at the first hit.
+// Moving objects, steps 3 and 4: each vertex of A's selection is joined with its copy at the end of
+// the step, rotated before it is translated, and this virtual edge is tested against B's selection.
+// Stops at the first hit.
 template <class T>
 bool virtual_edges_meet(Objects<T>& o, T scale, ofg::detail::Contact& contact) {
   const T unit = unit_for(scale);
-  const Transform<T> start = Transform<T>(o.start).in_units(unit), end = Transform<T>(o.end).in_units(unit);
+  const Transform<T> start = Transform<T>(o.start).in_units(unit),
+                     end = Transform<T>(o.end).in_units(unit);
   list_vertices(o.a, o.w, o.w.a);
   for (std::size_t i = 0; i < o.w.a.vertices.size(); ++i) {
     const int vertex = o.w.a.vertices[i];
@@ -115,15 +122,16 @@ bool virtual_edges_meet(Objects<T>& o, T scale, ofg::detail::Contact& contact) {
       ++o.answer.counts.edge_faces;
       const T share = segment_meets(p, q, in_units(o.b.triangle(other.face), unit), scale * unit);
       if (share < 0) continue;
-      contact = {Found::edge_face, double(share), vertex, other.face, o.w.a.vertex_face[i], other.face};
+      contact = {Found::edge_face, double(share),        vertex,
+                 other.face,       o.w.a.vertex_face[i], other.face};
       return true;
     }
   }
   return false;
 }
 
-// The second way to the time of impact: move half of the step and test; if nothing met, move half of what is left, and so on.
-// NaN where none of at most `halvings` moves meets.
+// The second way to the time of impact: move half of the step and test; if nothing met, move half
+// of what is left, and so on. NaN where none of at most `halvings` moves meets.
 template <class T>
 double halving_time(Objects<T>& o, T scale) {
   double t = 0;
@@ -135,7 +143,8 @@ double halving_time(Objects<T>& o, T scale) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// The time of a virtual edge's hit, in the way that was asked for. The faces that met stay those of the edge.
+// The time of a virtual edge's hit, in the way that was asked for. The faces that met stay those of
+// the edge.
 template <class T>
 double time_of_impact(Objects<T>& o, T scale, const ofg::detail::Contact& contact) {
   const Answer before = o.answer;
@@ -151,7 +160,8 @@ double time_of_impact(Objects<T>& o, T scale, const ofg::detail::Contact& contac
 
 // The discrete algorithm, steps 1 to 8.
 template <class T>
-Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& options, Workspace<T>& w) {
+Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& options,
+               Workspace<T>& w) {
   Answer answer;
   answer.counts.steps = 1;
   Objects<T> o{a, b, track, options, w, answer};
@@ -163,16 +173,18 @@ Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Opt
   return answer;
 }
 
-// The moving objects, steps 1 to 6: step 1 is in `track`; step 2 is the selection, without radii and without step 6.
-// By default the faces at both ends are tried first, since then "there is no need to interpolate the collision time", which is 0
-// or 1; `Order::steps` is his list of steps read literally, virtual edges first.
+// The moving objects, steps 1 to 6: step 1 is in `track`; step 2 is the selection, without radii
+// and without step 6. By default the faces at both ends are tried first, since then "there is no
+// need to interpolate the collision time", which is 0 or 1; `Order::steps` is his list of steps
+// read literally, virtual edges first.
 template <class T>
-Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& options, Workspace<T>& w) {
+Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& options,
+             Workspace<T>& w) {
   Answer answer;
   answer.counts.steps = 1;
   Objects<T> o{a, b, track, options, w, answer};
   if (bounding_spheres_apart(o, true)) return answer;  // step 1 of the discrete algorithm
-  select_faces(o, false);                        // 2
+  select_faces(o, false);                              // 2
   const T scale = ofg::detail::scale_of(a, b, track, o.step());
   ofg::detail::Contact contact;
   const auto at_an_end = [&] {
@@ -185,7 +197,8 @@ Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Optio
   };
   const auto in_between = [&] {
     if (!virtual_edges_meet(o, scale, contact)) return false;  // 3, 4
-    answer.hit = true, answer.found = contact.found, answer.face_a = contact.face_a, answer.face_b = contact.face_b;
+    answer.hit = true, answer.found = contact.found, answer.face_a = contact.face_a,
+    answer.face_b = contact.face_b;
     answer.time = time_of_impact(o, scale, contact);
     return true;
   };
@@ -197,8 +210,8 @@ Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Optio
   return answer;
 }
 
-// Concave objects, steps 1 to 3: the piece of A closest to the whole of B, the piece of B closest to that piece, and these two
-// go through the algorithm.
+// Concave objects, steps 1 to 3: the piece of A closest to the whole of B, the piece of B closest
+// to that piece, and these two go through the algorithm.
 template <class T, class Ask>
 Answer closest_pieces(const Body<T>& a, const Body<T>& b, const Track& track, Ask ask) {
   Counts counts;
@@ -210,13 +223,19 @@ Answer closest_pieces(const Body<T>& a, const Body<T>& b, const Track& track, As
 }
 
 template <class T>
-Answer overlap(const Body<T>& a, const Body<T>& b, const Track& track, const Options& o, Workspace<T>& w) {
-  return closest_pieces(a, b, track, [&](const Mesh<T>& x, const Mesh<T>& y) { return article::overlap(x, y, track, o, w); });
+Answer overlap(const Body<T>& a, const Body<T>& b, const Track& track, const Options& o,
+               Workspace<T>& w) {
+  return closest_pieces(a, b, track, [&](const Mesh<T>& x, const Mesh<T>& y) {
+    return article::overlap(x, y, track, o, w);
+  });
 }
 
 template <class T>
-Answer sweep(const Body<T>& a, const Body<T>& b, const Track& track, const Options& o, Workspace<T>& w) {
-  return closest_pieces(a, b, track, [&](const Mesh<T>& x, const Mesh<T>& y) { return article::sweep(x, y, track, o, w); });
+Answer sweep(const Body<T>& a, const Body<T>& b, const Track& track, const Options& o,
+             Workspace<T>& w) {
+  return closest_pieces(a, b, track, [&](const Mesh<T>& x, const Mesh<T>& y) {
+    return article::sweep(x, y, track, o, w);
+  });
 }
 
 }  // namespace ofg::article

@@ -24,7 +24,8 @@ inline void move_pair(PosedPairs& pairs, int from, int to) {
 
 // Screens up to most_posed pairs at once: a few axes for all, then portals for the rest, closed up.
 template <class T>
-void screen(const Mesh<T>& a, const Mesh<T>& b, const Pose* pa, const Pose* pb, int n, Screened* out) {
+void screen(const Mesh<T>& a, const Mesh<T>& b, const Pose* pa, const Pose* pb, int n,
+            Screened* out) {
   static_assert(sizeof(Pose) == 7 * sizeof(double) && sizeof(Screened) == 1);
   const auto &ca = a.centre, &cb = b.centre;
   const PairOfBodies bodies{{double(ca.x), double(ca.y), double(ca.z)},
@@ -38,8 +39,10 @@ void screen(const Mesh<T>& a, const Mesh<T>& b, const Pose* pa, const Pose* pb, 
   const SupportView map_a = a.supports.view(), map_b = b.supports.view();
   unsigned char verdict[most_posed];
   int rest[most_posed], left = 0;
-  kernels<T>.pose_pairs(bodies, reinterpret_cast<const double*>(pa), reinterpret_cast<const double*>(pb), n, pairs);
-  if (first_axes(a, b) > 0) kernels<T>.reflect(map_a, map_b, pairs, fill_up(pairs, n), first_axes(a, b), verdict);
+  kernels<T>.pose_pairs(bodies, reinterpret_cast<const double*>(pa),
+                        reinterpret_cast<const double*>(pb), n, pairs);
+  if (first_axes(a, b) > 0)
+    kernels<T>.reflect(map_a, map_b, pairs, fill_up(pairs, n), first_axes(a, b), verdict);
   for (int i = 0; i < n; ++i) {
     out[i] = first_axes(a, b) > 0 ? Screened(verdict[i]) : Screened::unknown;
     if (out[i] == Screened::apart) continue;
@@ -50,7 +53,8 @@ void screen(const Mesh<T>& a, const Mesh<T>& b, const Pose* pa, const Pose* pb, 
   for (int i = 0; i < left; ++i) out[rest[i]] = Screened(verdict[i]);
 }
 
-// The one pair of meshes that is asked of two bodies whatever their pose; none of bodies in several pieces.
+// The one pair of meshes that is asked of two bodies whatever their pose; none of bodies in several
+// pieces.
 template <class T>
 const Mesh<T>* only_mesh(const Body<T>& body, const Options& o) {
   if (o.concave == Concave::undivided || body.pieces.empty()) return &body.whole;
@@ -61,8 +65,8 @@ const Mesh<T>* only_mesh(const Body<T>& body, const Options& o) {
 
 // What `overlap` answers at each of n pairs of poses. Reserve `w` for both bodies first.
 template <class T>
-void overlap_many(const Body<T>& a, const Body<T>& b, const Pose* pa, const Pose* pb, std::size_t n, const Options& o,
-                  Workspace<T>& w, Answer* answers) {
+void overlap_many(const Body<T>& a, const Body<T>& b, const Pose* pa, const Pose* pb, std::size_t n,
+                  const Options& o, Workspace<T>& w, Answer* answers) {
   const Mesh<T>*ma = detail::only_mesh(a, o), *mb = detail::only_mesh(b, o);
   const bool screens = o.screen && ma && mb;
   Screened screened[most_posed] = {};
@@ -79,7 +83,8 @@ void overlap_many(const Body<T>& a, const Body<T>& b, const Pose* pa, const Pose
       answers[i].counts.spheres = answers[i].counts.steps = 1;
       if (known != Screened::apart) answers[i] = overlap(*ma, *mb, {pa[i], pb[i]}, o, w, known);
       const bool named = o.concave != Concave::all_pairs || answers[i].hit;  // as there
-      answers[i].piece_a = named && ma != &a.whole ? 0 : -1, answers[i].piece_b = named && mb != &b.whole ? 0 : -1;
+      answers[i].piece_a = named && ma != &a.whole ? 0 : -1,
+      answers[i].piece_b = named && mb != &b.whole ? 0 : -1;
     }
   }
 }

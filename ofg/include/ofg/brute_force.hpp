@@ -1,5 +1,6 @@
-// The reference that OFG must equal when k is no less than the number of faces: every face against every face and, in a sweep,
-// every vertex's virtual edge against every face. Plain loops, no selection, no rejection but bounding boxes of faces.
+// The reference that OFG must equal when k is no less than the number of faces: every face against
+// every face and, in a sweep, every vertex's virtual edge against every face. Plain loops, no
+// selection, no rejection but bounding boxes of faces.
 #pragma once
 #include "ofg.hpp"
 
@@ -15,13 +16,14 @@ struct Box {
         hi{std::fmax(t.a.x, std::fmax(t.b.x, t.c.x)), std::fmax(t.a.y, std::fmax(t.b.y, t.c.y)),
            std::fmax(t.a.z, std::fmax(t.b.z, t.c.z))} {}
   bool apart(const Box& b, T slack) const {
-    return lo.x > b.hi.x + slack || b.lo.x > hi.x + slack || lo.y > b.hi.y + slack || b.lo.y > hi.y + slack ||
-           lo.z > b.hi.z + slack || b.lo.z > hi.z + slack;
+    return lo.x > b.hi.x + slack || b.lo.x > hi.x + slack || lo.y > b.hi.y + slack ||
+           b.lo.y > hi.y + slack || lo.z > b.hi.z + slack || b.lo.z > hi.z + slack;
   }
 };
 
 template <class T>
-bool surfaces_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T scale, Answer& answer) {
+bool surfaces_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T scale,
+                   Answer& answer) {
   const T unit = unit_for(scale);
   const Transform<T> pose = to_b.in_units(unit);
   scale *= unit;
@@ -49,12 +51,14 @@ Answer overlap(const Body<T>& a, const Body<T>& b, const Track& track) {
   Answer answer;
   answer.counts.steps = 1;
   const Transform<T> to_b(track.at(0));
-  answer.hit = detail::surfaces_meet(a.whole, b.whole, to_b, ofg::detail::scale_of(a.whole, b.whole, to_b.p), answer);
+  answer.hit = detail::surfaces_meet(a.whole, b.whole, to_b,
+                                     ofg::detail::scale_of(a.whole, b.whole, to_b.p), answer);
   if (answer.hit) answer.found = Found::start;
   return answer;
 }
 
-// Does any of A's virtual edges meet a face of B, or do the surfaces meet at either end? Time: that of the earliest virtual edge.
+// Does any of A's virtual edges meet a face of B, or do the surfaces meet at either end? Time: that
+// of the earliest virtual edge.
 template <class T>
 Answer sweep(const Body<T>& a, const Body<T>& b, const Track& track) {
   Answer answer;
@@ -71,7 +75,8 @@ Answer sweep(const Body<T>& a, const Body<T>& b, const Track& track) {
       ++answer.counts.edge_faces;
       const Triangle<T> face = in_units(mb.triangle(j), unit);
       const T share = segment_meets(from(ma.vertices[i]), to(ma.vertices[i]), face, scale * unit);
-      if (share >= 0 && share < contact.share) contact = {Found::edge_face, double(share), i, j, -1, j};
+      if (share >= 0 && share < contact.share)
+        contact = {Found::edge_face, double(share), i, j, -1, j};
     }
   if (contact.found != Found::nothing) {
     answer.hit = true, answer.found = contact.found, answer.face_b = contact.face_b;

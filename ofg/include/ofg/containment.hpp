@@ -1,4 +1,5 @@
-// Is a point inside a body? Surfaces that do not meet still overlap as solids when one lies inside the other.
+// Is a point inside a body? Surfaces that do not meet still overlap as solids when one lies inside
+// the other.
 #pragma once
 #include "mesh.hpp"
 #include "motion.hpp"
@@ -14,14 +15,15 @@ bool inside_convex(const Mesh<T>& m, const Vec3<T>& p) {
   for (int f = 0; f < m.size(); ++f) {
     const Triangle<T> t = m.triangle(f);
     const Vec3<T> n = t.normal();
-    if (dot(n, p - t.a) > -slack * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) && dot(n, n) > 0) return false;
+    if (dot(n, p - t.a) > -slack * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) && dot(n, n) > 0)
+      return false;
   }
   return true;
 }
 
 // Is the winding number of a closed mesh not 0 (van Oosterom and Strackee 1983)? The solid angles
-// of its faces sum to 4 pi times that number, which is 2 where a shell lies in another, and negative
-// in one that is inside-out.
+// of its faces sum to 4 pi times that number, which is 2 where a shell lies in another, and
+// negative in one that is inside-out.
 template <class T>
 bool inside_closed(const Mesh<T>& m, const Vec3<T>& p) {
   const Vec3<T> d = p - m.centre;
@@ -31,7 +33,8 @@ bool inside_closed(const Mesh<T>& m, const Vec3<T>& p) {
     const Triangle<T> t = m.triangle(f);
     const Vec3<double> a(t.a - p), b(t.b - p), c(t.c - p);
     const double la = length(a), lb = length(b), lc = length(c);
-    angle += std::atan2(triple(a, b, c), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+    angle += std::atan2(triple(a, b, c),
+                        la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
   }
   // Half of the full 2 pi: atan2 gives half of each solid angle.
   return std::abs(angle) > 3.14159265358979323846;

@@ -1,4 +1,5 @@
-// What is known of a body before any question is asked: vertices and face centres in structure-of-arrays.
+// What is known of a body before any question is asked: vertices and face centres in
+// structure-of-arrays.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -20,7 +21,8 @@ struct Points {
   int size() const { return int(x.size()); }
 };
 
-// The centres of the faces in blocks of block_faces neighbours, so that most blocks can be passed over by their boxes.
+// The centres of the faces in blocks of block_faces neighbours, so that most blocks can be passed
+// over by their boxes.
 template <class T>
 struct Blocks {
   std::vector<T> x, y, z, lo[3], hi[3];
@@ -79,12 +81,14 @@ struct Blocks {
         l = std::min(l, (*a)[std::size_t(face[i])]), h = std::max(h, (*a)[std::size_t(face[i])]);
       if (h - l > most) most = h - l, longest = a;
     }
-    const std::size_t middle = from + ((to - from) / 2 + block_faces - 1) / block_faces * block_faces;
+    const std::size_t middle =
+        from + ((to - from) / 2 + block_faces - 1) / block_faces * block_faces;
     const auto before = [&](Int i, Int j) {
       const T a = (*longest)[std::size_t(i)], b = (*longest)[std::size_t(j)];
       return a < b || (a == b && i < j);
     };
-    std::nth_element(face.begin() + long(from), face.begin() + long(middle), face.begin() + long(to), before);
+    std::nth_element(face.begin() + long(from), face.begin() + long(middle),
+                     face.begin() + long(to), before);
     split(c, from, middle), split(c, middle, to);
   }
 };
@@ -125,18 +129,19 @@ struct Mesh {
   std::vector<T> corners;                      // of each face: nine coordinates in a row
   Cloud<T> cloud;                              // the vertices, for supports
   SupportMap supports;                         // the same, by table
-  std::vector<T> face_radius;                  // from a face's centre to its farthest vertex, rounded up
-  std::vector<Vec3<T>> own_points;             // one point of the solid in each of its parts
-  Vec3<T> centre;                              // mean of the vertices
-  T radius = 0;                                // from `centre` to the farthest vertex, rounded up
-  T extent = 0;                                // largest distance of a vertex from the frame's origin, rounded up
+  std::vector<T> face_radius;       // from a face's centre to its farthest vertex, rounded up
+  std::vector<Vec3<T>> own_points;  // one point of the solid in each of its parts
+  Vec3<T> centre;                   // mean of the vertices
+  T radius = 0;                     // from `centre` to the farthest vertex, rounded up
+  T extent = 0;  // largest distance of a vertex from the frame's origin, rounded up
   bool convex = false;
 
   Mesh() = default;
 
   // vertices: n x 3, faces: m x 3 indices into them, both row by row.
   // A vertex that no face uses is no part of the body: the first one in use stands in its place.
-  Mesh(const double* v, std::size_t n, const std::int32_t* f, std::size_t m, bool convex_) : convex(convex_) {
+  Mesh(const double* v, std::size_t n, const std::int32_t* f, std::size_t m, bool convex_)
+      : convex(convex_) {
     std::vector<char> used(n, char(m == 0));
     for (std::size_t i = 0; i < 3 * m; ++i) used[std::size_t(f[i])] = 1;
     const std::size_t first = std::size_t(std::find(used.begin(), used.end(), 1) - used.begin());
@@ -167,28 +172,34 @@ struct Mesh {
       std::array<int, 3> own;
       for (int j = 0; j < 3; ++j) {
         const int s = faces[i][j], e = faces[i][(j + 1) % 3];
-        const std::uint64_t key = (std::uint64_t(s < e ? s : e) << 32) | std::uint32_t(s < e ? e : s);
+        const std::uint64_t key =
+            (std::uint64_t(s < e ? s : e) << 32) | std::uint32_t(s < e ? e : s);
         const auto [at, fresh] = edge_of.try_emplace(key, int(edges.size()));
         if (fresh) edges.push_back({s, e});
         own[j] = at->second;
       }
       face_edges.push_back(own);
-      corners.insert(corners.end(), {t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z});
+      corners.insert(corners.end(),
+                     {t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z});
     }
     blocks = Blocks<T>(centres);
     for (std::size_t i = 0; i < n; ++i) cloud.push(vertices[i]);
     cloud.pad();
-    supports = SupportMap(vertices.x.data(), vertices.y.data(), vertices.z.data(), int(n), centre, radius);
+    supports =
+        SupportMap(vertices.x.data(), vertices.y.data(), vertices.z.data(), int(n), centre, radius);
     if (convex) own_points.push_back(centre);
     if (!convex)
       for (int i : first_of_parts(faces, n)) own_points.push_back(vertices[std::size_t(i)]);
   }
 
   int size() const { return int(faces.size()); }
-  Triangle<T> triangle(int f) const { return {vertices[faces[f][0]], vertices[faces[f][1]], vertices[faces[f][2]]}; }
+  Triangle<T> triangle(int f) const {
+    return {vertices[faces[f][0]], vertices[faces[f][1]], vertices[faces[f][2]]};
+  }
 };
 
-// A body: its convex pieces (one if it is convex, none if it is an undivided concave mesh) and the whole surface as one mesh.
+// A body: its convex pieces (one if it is convex, none if it is an undivided concave mesh) and the
+// whole surface as one mesh.
 template <class T>
 struct Body {
   std::vector<Mesh<T>> pieces;
@@ -204,7 +215,8 @@ struct Body {
       centre = sum * (T(1) / T(pieces.size()));
     }
     radius = 0;
-    for (int i = 0; i < whole.vertices.size(); ++i) radius = std::fmax(radius, length(whole.vertices[i] - centre));
+    for (int i = 0; i < whole.vertices.size(); ++i)
+      radius = std::fmax(radius, length(whole.vertices[i] - centre));
     radius += rounding<T> * whole.extent;
   }
 };

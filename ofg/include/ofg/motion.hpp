@@ -1,5 +1,6 @@
-// Poses, motions over one step, and the motion of one body as seen from the other. Always in double, whatever the meshes hold:
-// the relative pose is where positions far from the world's origin cancel.
+// Poses, motions over one step, and the motion of one body as seen from the other. Always in
+// double, whatever the meshes hold: the relative pose is where positions far from the world's
+// origin cancel.
 #pragma once
 #include "vector.hpp"
 
@@ -54,9 +55,12 @@ inline Mat3<double> rotation(const double (&q)[4]) {
     n = w * w + x * x + y * y + z * z;
   }
   Mat3<double> m;
-  m.row[0] = {(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n};
-  m.row[1] = {2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n};
-  m.row[2] = {2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n};
+  m.row[0] = {(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n,
+              2 * (x * z + w * y) / n};
+  m.row[1] = {2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n,
+              2 * (y * z - w * x) / n};
+  m.row[2] = {2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n,
+              (w * w - x * x - y * y + z * z) / n};
   return m;
 }
 
@@ -98,7 +102,8 @@ struct Mover {
 struct Track {
   Mover a, b;
 
-  Track(const Pose& pose_a, const Pose& pose_b, const Motion& motion_a = {}, const Motion& motion_b = {})
+  Track(const Pose& pose_a, const Pose& pose_b, const Motion& motion_a = {},
+        const Motion& motion_b = {})
       : a(pose_a, motion_a), b(pose_b, motion_b) {}
 
   bool turns() const { return a.turns() || b.turns(); }

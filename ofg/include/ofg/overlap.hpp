@@ -13,9 +13,12 @@ T scale_of(const Mesh<T>& a, const Mesh<T>& b, const Vec3<T>& p) {
   return std::fmax(a.extent + length(p), b.extent);
 }
 
-inline bool spheres_apart(const Vec3<double>& between, double sum) { return dot(between, between) > sum * sum; }
+inline bool spheres_apart(const Vec3<double>& between, double sum) {
+  return dot(between, between) > sum * sum;
+}
 
-// triangles_meet, after the planes of the two have been tried. `axis`: one that keeps them apart, from t0 to s0, if they are.
+// triangles_meet, after the planes of the two have been tried. `axis`: one that keeps them apart,
+// from t0 to s0, if they are.
 template <class T>
 bool edges_meet(const Triangle<T>& s0, const Triangle<T>& t0, T slack, Vec3<T>& axis) {
   const Vec3<T> o = t0.a;
@@ -27,9 +30,10 @@ bool edges_meet(const Triangle<T>& s0, const Triangle<T>& t0, T slack, Vec3<T>& 
   return !((sliver(s) || sliver(t)) && slivers_apart(s, t, slack));
 }
 
-// Is the plane of one of the selected faces a wall between the selections? `axis`: the normal of the best, from B to A. A plane
-// that one side is in front of is a proposal; that the other side is behind it is tried on its points, because the normal of a
-// sliver is mostly rounding, and a mesh need not be convex.
+// Is the plane of one of the selected faces a wall between the selections? `axis`: the normal of
+// the best, from B to A. A plane that one side is in front of is a proposal; that the other side is
+// behind it is tried on its points, because the normal of a sliver is mostly rounding, and a mesh
+// need not be convex.
 template <class T, class Along>
 bool walled_off(const Selection<T>& a, const Selection<T>& b, T gap, Vec3<T>& axis, Along along) {
   T n[3], m[3];
@@ -43,12 +47,12 @@ bool walled_off(const Selection<T>& a, const Selection<T>& b, T gap, Vec3<T>& ax
   return false;
 }
 
-// Step 8: face against face, the nearest first, until two meet. What settles many pairs at once is tried where it is likely to:
-// the planes of the faces before the first row, the axis that kept a pair apart after it, and a search for any plane after the
-// row.
+// Step 8: face against face, the nearest first, until two meet. What settles many pairs at once is
+// tried where it is likely to: the planes of the faces before the first row, the axis that kept a
+// pair apart after it, and a search for any plane after the row.
 template <class T>
-bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Vec3<T> axis, Screened screened, Workspace<T>& w,
-                Answer& answer) {
+bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Vec3<T> axis,
+                Screened screened, Workspace<T>& w, Answer& answer) {
   const T slack = rounding<T> * scale, gap = 4 * slack;
   const CloudView<T> cloud_a = a.cloud(), cloud_b = b.cloud();
   const auto along = [&](const Vec3<T>& v) { return support(cloud_a, cloud_b, v); };
@@ -83,7 +87,8 @@ bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Vec3<T> a
 // before k grows: all faces cost up to a hundred times as much where the bodies are deep in one
 // another.
 template <class T>
-bool holds(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& a_to_b, const Options& o, Answer& answer) {
+bool holds(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& a_to_b, const Options& o,
+           Answer& answer) {
   if (!o.containment || !one_inside_other(a, b, a_to_b)) return false;
   answer.found = Found::inside;
   return true;
@@ -99,7 +104,8 @@ struct Near {
 
 // Steps 2 to 8 with one choice of k.
 template <int Last, class T>
-void oppose(const Mesh<T>& a, const Mesh<T>& b, const Near<T>& near, const Options& o, Workspace<T>& w, Answer& answer) {
+void oppose(const Mesh<T>& a, const Mesh<T>& b, const Near<T>& near, const Options& o,
+            Workspace<T>& w, Answer& answer) {
   if constexpr (Last < 2) return;
   Counts& counts = answer.counts;
   const Vec3<T> centre_b = near.to_a(b.centre);
@@ -108,7 +114,9 @@ void oppose(const Mesh<T>& a, const Mesh<T>& b, const Near<T>& near, const Optio
   const Vec3<T> centre_a = near.to_b(w.a.centre);
   select(b, &centre_a, 1, o, w.a.radius, w, w.b, counts);  // 4, 5, 7
   ++counts.spheres;
-  if (spheres_apart(Vec3<double>(centre_a - w.b.centre), double(w.a.radius) + double(w.b.radius) + near.slack)) return;  // 6
+  if (spheres_apart(Vec3<double>(centre_a - w.b.centre),
+                    double(w.a.radius) + double(w.b.radius) + near.slack))
+    return;  // 6
   if constexpr (Last < 8) return;
   const T scale = scale_of(a, b, near.to_b.p), unit = unit_for(scale);
   move(near.to_b.in_units(unit), w.a), measure_in(unit, w.b);
@@ -119,7 +127,8 @@ void oppose(const Mesh<T>& a, const Mesh<T>& b, const Near<T>& near, const Optio
 
 // One plane between the hulls of the whole meshes at one pose.
 template <class T>
-bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T gap, Vec3<T>& axis) {
+bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T gap,
+                 Vec3<T>& axis) {
   const Mat3<T> back = to_b.r.transposed();
   const CloudView<T> hull_a = a.cloud.view(), hull_b = b.cloud.view();
   static constexpr T zeros[lanes<T>] = {};
@@ -148,14 +157,15 @@ void oppose_once(const Mesh<T>& a, const Mesh<T>& b, const Near<T>& near, const 
 // after which to stop, so that the cost of each can be measured; nothing else has a use for less
 // than 8. screened: what a screen of this pair has said already.
 template <int Last = 8, class T>
-Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o, Workspace<T>& w,
-               Screened screened = Screened::unknown) {
+Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o,
+               Workspace<T>& w, Screened screened = Screened::unknown) {
   Answer answer;
   answer.counts.spheres = answer.counts.steps = 1;
   const Transform<double> pose = track.at(0);
   const Vec3<double> apart = pose(Vec3<double>(a.centre)) - Vec3<double>(b.centre);
   const double slack = rounding<T> * (length(pose.p) + a.extent + b.extent);
-  if (detail::spheres_apart(apart, double(a.radius) + double(b.radius) + slack)) return answer;  // 1
+  if (detail::spheres_apart(apart, double(a.radius) + double(b.radius) + slack))
+    return answer;  // 1
   const bool screens = (o.screen || o.adaptive_k) && screened == Screened::unknown;
   if (screens && detail::screened_apart(a, b, pose, {}, 4 * slack)) return answer;
   const detail::Near<T> near{Transform<T>(pose), Transform<T>(pose.inverse()), slack, screened};

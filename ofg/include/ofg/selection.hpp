@@ -34,12 +34,13 @@ class List {
 
 template <class T>
 struct Selection {
-  List<Candidate<T>> near;    // nearest first; equal distances in the order of the faces
-  std::vector<T> x, y, z;     // corners of the same faces where they were placed: all a, then all b, then all c, each padded
-  List<int> vertices, edges;  // of the selected faces, each once, nearest first
+  List<Candidate<T>> near;  // nearest first; equal distances in the order of the faces
+  std::vector<T> x, y, z;   // corners of the same faces where they were placed: all a, then all b,
+                            // then all c, each padded
+  List<int> vertices, edges;         // of the selected faces, each once, nearest first
   List<int> vertex_face, edge_face;  // a selected face each belongs to
   Vec3<T> centre;                    // mean of the faces' centres, in the body's own frame
-  T radius = 0;                      // from `centre` to the farthest vertex of the faces, rounded up
+  T radius = 0;  // from `centre` to the farthest vertex of the faces, rounded up
 
   int size() const { return int(near.size()); }
   int padded() const { return (size() + lanes<T> - 1) / lanes<T> * lanes<T>; }
@@ -53,10 +54,13 @@ struct Selection {
     return {{x[a], y[a], z[a]}, {x[b], y[b], z[b]}, {x[c], y[c], z[c]}};
   }
   // The corners, of both copies if there are two.
-  CloudView<T> cloud(int copies = 1) const { return {x.data(), y.data(), z.data(), copies * 3 * padded()}; }
+  CloudView<T> cloud(int copies = 1) const {
+    return {x.data(), y.data(), z.data(), copies * 3 * padded()};
+  }
 };
 
-// All memory a query needs. Reserve once for the largest meshes; then no query allocates. One per thread.
+// All memory a query needs. Reserve once for the largest meshes; then no query allocates. One per
+// thread.
 template <class T>
 struct Workspace {
   Selection<T> a, b;
@@ -73,16 +77,18 @@ struct Workspace {
     const std::size_t v = std::max(ma.vertices.x.size(), mb.vertices.x.size()),
                       e = std::max(ma.edges.size(), mb.edges.size()) + 2 * block_faces;
     if (f <= seen_face.size() && v <= seen_vertex.size() && e <= seen_edge.size()) return;
-    const auto grow = [](auto& vector, std::size_t n) { vector.resize(std::max(n, vector.size())); };
+    const auto grow = [](auto& vector, std::size_t n) {
+      vector.resize(std::max(n, vector.size()));
+    };
     for (auto* s : {&a, &b}) {
-      s->near.reserve(f + most_ranked), s->vertices.reserve(v), s->vertex_face.reserve(v), s->edges.reserve(e),
-          s->edge_face.reserve(e);
+      s->near.reserve(f + most_ranked), s->vertices.reserve(v), s->vertex_face.reserve(v),
+          s->edges.reserve(e), s->edge_face.reserve(e);
       grow(s->x, 6 * f), grow(s->y, 6 * f), grow(s->z, 6 * f);
     }
     candidates.reserve(f + most_ranked);
     grow(seen_face, f), grow(seen_vertex, v), grow(seen_edge, e);
-    grow(scratch, f + most_ranked), grow(scratch_bound, f), grow(list, f), grow(ids, f + most_ranked),
-        grow(flags, std::max(f, e));
+    grow(scratch, f + most_ranked), grow(scratch_bound, f), grow(list, f),
+        grow(ids, f + most_ranked), grow(flags, std::max(f, e));
     for (auto& side : box) grow(side, e);
   }
   void reserve(const Body<T>& ba, const Body<T>& bb) {
@@ -112,19 +118,23 @@ void k_nearest(List<Candidate<T>>& c, int k) {
 
 // By centres, in blocks: what most queries do.
 template <class T>
-void nearest_centres(const Mesh<T>& m, const Vec3<T>& point, int k, Workspace<T>& w, List<Candidate<T>>& found, Counts& counts) {
+void nearest_centres(const Mesh<T>& m, const Vec3<T>& point, int k, Workspace<T>& w,
+                     List<Candidate<T>>& found, Counts& counts) {
   const T p[3] = {point.x, point.y, point.z};
   NearestScratch<T> scratch{w.scratch_bound.data(), w.scratch.data(), w.list.data(), w.ids.data()};
   int evaluated;
-  found.keep(std::size_t(kernels<T>.nearest(m.blocks.view(), p, k, scratch, found.data(), &evaluated)));
+  found.keep(
+      std::size_t(kernels<T>.nearest(m.blocks.view(), p, k, scratch, found.data(), &evaluated)));
   counts.evaluated += evaluated;
   if (int(found.size()) > k) k_nearest(found, k);
 }
 
-// By distance to the faces themselves. A face is no nearer than its centre less its radius, and the k with the nearest centres
-// bound the k-th distance, so most faces are passed over; those within `reach` never are.
+// By distance to the faces themselves. A face is no nearer than its centre less its radius, and the
+// k with the nearest centres bound the k-th distance, so most faces are passed over; those within
+// `reach` never are.
 template <class T>
-void nearest_triangles(const Mesh<T>& m, const Vec3<T>& p, int k, T reach, Workspace<T>& w, Counts& counts) {
+void nearest_triangles(const Mesh<T>& m, const Vec3<T>& p, int k, T reach, Workspace<T>& w,
+                       Counts& counts) {
   T limit = std::numeric_limits<T>::infinity();
   const T unit = unit_for(std::fmax(m.extent, largest(p))), back = 1 / unit;
   const Vec3<T> at = p * unit;
@@ -163,12 +173,13 @@ void all_centres(const Mesh<T>& m, const Vec3<T>& p, Workspace<T>& w, Counts& co
 // No point of the face is within `reach` of the point.
 template <class T>
 bool out_of_reach(const Mesh<T>& m, const Candidate<T>& c, T reach, Nearest nearest) {
-  const T far =
-      reach + rounding<T> * (m.extent + reach) + (nearest == Nearest::centre ? m.face_radius[std::size_t(c.face)] : T(0));
+  const T far = reach + rounding<T> * (m.extent + reach) +
+                (nearest == Nearest::centre ? m.face_radius[std::size_t(c.face)] : T(0));
   return c.distance > far * far;
 }
 
-// The corners of the selected faces, as copy number `copy` (0, or 1 for the end of a sweep), in the frame of the mesh.
+// The corners of the selected faces, as copy number `copy` (0, or 1 for the end of a sweep), in the
+// frame of the mesh.
 template <class T>
 void gather(const Mesh<T>& m, Selection<T>& s, int copy = 0) {
   const std::size_t n = std::size_t(s.padded()), first = std::size_t(copy) * 3 * n;
@@ -189,16 +200,17 @@ void bound(const Mesh<T>& m, Selection<T>& s) {
   s.centre = sum * (T(1) / T(s.size()));
   gather(m, s);
   const T p[3] = {s.centre.x, s.centre.y, s.centre.z};
-  s.radius = std::sqrt(kernels<T>.farthest(s.x.data(), s.y.data(), s.z.data(), 3 * s.padded(), p)) + rounding<T> * m.extent;
+  s.radius = std::sqrt(kernels<T>.farthest(s.x.data(), s.y.data(), s.z.data(), 3 * s.padded(), p)) +
+             rounding<T> * m.extent;
 }
 
 }  // namespace detail
 
-// The k faces nearest to each of `points` (in the mesh's frame), and their corners there. With adaptive k also every face that
-// comes within `reach` of one of them.
+// The k faces nearest to each of `points` (in the mesh's frame), and their corners there. With
+// adaptive k also every face that comes within `reach` of one of them.
 template <class T>
-void select(const Mesh<T>& m, const Vec3<T>* points, int n_points, const Options& o, T reach, Workspace<T>& w, Selection<T>& s,
-            Counts& counts) {
+void select(const Mesh<T>& m, const Vec3<T>* points, int n_points, const Options& o, T reach,
+            Workspace<T>& w, Selection<T>& s, Counts& counts) {
   counts.distances += std::int64_t(n_points) * m.size();
   if (n_points == 1 && !o.adaptive_k && o.nearest == Nearest::centre && o.k <= block_faces) {
     detail::nearest_centres(m, points[0], o.k, w, s.near, counts);
@@ -238,11 +250,13 @@ void measure_in(T unit, Selection<T>& s) {
 // Moves the gathered corners to B's frame.
 template <class T>
 void move(const Transform<T>& to_b, Selection<T>& s, int copy = 0) {
-  const T rows[9] = {to_b.r.row[0].x, to_b.r.row[0].y, to_b.r.row[0].z, to_b.r.row[1].x, to_b.r.row[1].y,
-                     to_b.r.row[1].z, to_b.r.row[2].x, to_b.r.row[2].y, to_b.r.row[2].z};
+  const T rows[9] = {to_b.r.row[0].x, to_b.r.row[0].y, to_b.r.row[0].z,
+                     to_b.r.row[1].x, to_b.r.row[1].y, to_b.r.row[1].z,
+                     to_b.r.row[2].x, to_b.r.row[2].y, to_b.r.row[2].z};
   const T shift[3] = {to_b.p.x, to_b.p.y, to_b.p.z};
   const int n = 3 * s.padded();
-  kernels<T>.transform(s.x.data() + copy * n, s.y.data() + copy * n, s.z.data() + copy * n, n, rows, shift);
+  kernels<T>.transform(s.x.data() + copy * n, s.y.data() + copy * n, s.z.data() + copy * n, n, rows,
+                       shift);
 }
 
 // The vertices of the selected faces, each once: the starts of the virtual edges.

@@ -1,5 +1,5 @@
-// Is there a plane with one set of points on one side and another on the other? A plane found is a proof; none found says
-// nothing.
+// Is there a plane with one set of points on one side and another on the other? A plane found is a
+// proof; none found says nothing.
 #pragma once
 #include "simd/kernels.hpp"
 
@@ -30,8 +30,9 @@ inline Vec3<T> support(const CloudView<T>& a, const CloudView<T>& b, const Vec3<
 
 namespace detail {
 
-// The point nearest to the origin of a simplex of up to four points, and the points that span it, kept in place. Ericson,
-// Real-Time Collision Detection, 2005, sections 5.1.2, 5.1.5, 5.1.6. Returns the origin for a tetrahedron that holds it.
+// The point nearest to the origin of a simplex of up to four points, and the points that span it,
+// kept in place. Ericson, Real-Time Collision Detection, 2005, sections 5.1.2, 5.1.5, 5.1.6.
+// Returns the origin for a tetrahedron that holds it.
 template <class T>
 struct Simplex {
   Vec3<T> p[4];
@@ -55,7 +56,8 @@ struct Simplex {
 
   Vec3<T> on_triangle() {
     const Vec3<T> a = p[0], b = p[1], c = p[2], ab = b - a, ac = c - a;
-    const T d1 = -dot(ab, a), d2 = -dot(ac, a), d3 = -dot(ab, b), d4 = -dot(ac, b), d5 = -dot(ab, c), d6 = -dot(ac, c);
+    const T d1 = -dot(ab, a), d2 = -dot(ac, a), d3 = -dot(ab, b), d4 = -dot(ac, b),
+            d5 = -dot(ab, c), d6 = -dot(ac, c);
     if (d1 <= 0 && d2 <= 0) return n = 1, a;
     if (d3 >= 0 && d4 <= d3) return p[0] = b, n = 1, b;
     const T vc = d1 * d4 - d3 * d2;
@@ -90,8 +92,9 @@ struct Simplex {
 
 }  // namespace detail
 
-// Searches for a plane that keeps two sets apart by more than `gap`, along `axis` first and last found, from the second set to
-// the first (Gilbert, Johnson, Keerthi 1988). `least_of(axis)` returns the point of (first - second) least along an axis.
+// Searches for a plane that keeps two sets apart by more than `gap`, along `axis` first and last
+// found, from the second set to the first (Gilbert, Johnson, Keerthi 1988). `least_of(axis)`
+// returns the point of (first - second) least along an axis.
 template <class T, class Least>
 bool separated(Vec3<T>& axis, T gap, Least least_of, int iterations = 12) {
   detail::Simplex<T> s;

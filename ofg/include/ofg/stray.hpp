@@ -26,8 +26,8 @@ inline double bend(double w, double u, double lever, double slide, double apart)
 }
 
 // How far any vertex of A, seen from B, can stray from its chord over a share h of the step, at the
-// same share of both: |y''| h^2 / 8. |r| <= |P - Q| + lever; P - Q is linear in time, so its length is
-// greatest at an end of the step.
+// same share of both: |y''| h^2 / 8. |r| <= |P - Q| + lever; P - Q is linear in time, so its length
+// is greatest at an end of the step.
 template <class T>
 double stray(const Mesh<T>& a, const Track& track, double h) {
   if (!track.turns()) return 0;

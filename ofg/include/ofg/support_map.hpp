@@ -1,5 +1,6 @@
-// The support function of a set of points by table: for every cell of a cube map of directions, the points that are extreme along
-// some direction of the cell. All of them, so that the best of a cell's list is the best of all.
+// The support function of a set of points by table: for every cell of a cube map of directions, the
+// points that are extreme along some direction of the cell. All of them, so that the best of a
+// cell's list is the best of all.
 #pragma once
 #include <cmath>
 #include <vector>
@@ -8,12 +9,14 @@
 
 namespace ofg {
 
-// Points are kept relative to `centre` in units of `radius`, in single precision: what is built on them allows for its rounding.
+// Points are kept relative to `centre` in units of `radius`, in single precision: what is built on
+// them allows for its rounding.
 class SupportMap {
  public:
   SupportMap() = default;
 
-  // x, y, z: n coordinates each; radius: no less than the distance of any point from the centre (0 is taken as 1).
+  // x, y, z: n coordinates each; radius: no less than the distance of any point from the centre (0
+  // is taken as 1).
   template <class T>
   SupportMap(const T* x, const T* y, const T* z, int n, const Vec3<T>& centre, T radius) {
     const double unit = radius > 0 ? 1 / double(radius) : 1;
@@ -26,7 +29,8 @@ class SupportMap {
     side = 1;
     if (n > list_unit)
       while (side < 32 && side < 0.5 * std::sqrt(double(n))) side *= 2;
-    std::vector<std::vector<int>> lists(std::size_t(6 * side * side), n > list_unit ? std::vector<int>() : everyone);
+    std::vector<std::vector<int>> lists(std::size_t(6 * side * side),
+                                        n > list_unit ? std::vector<int>() : everyone);
     if (n > list_unit)
       for (int face = 0; face < 6; ++face) divide(all, everyone, face, 0, 0, 1, lists);
     first.push_back(0);
@@ -48,9 +52,10 @@ class SupportMap {
     return d * (1 / length(d));
   }
 
-  // The points of a list that are extreme somewhere in cell i, j of `cells` x `cells`; then those of its quarters among them.
-  void divide(const std::vector<Vec3<double>>& all, const std::vector<int>& list, int face, int i, int j, int cells,
-              std::vector<std::vector<int>>& lists) const {
+  // The points of a list that are extreme somewhere in cell i, j of `cells` x `cells`; then those
+  // of its quarters among them.
+  void divide(const std::vector<Vec3<double>>& all, const std::vector<int>& list, int face, int i,
+              int j, int cells, std::vector<std::vector<int>>& lists) const {
     std::vector<int> here = extreme(all, list, face, i, j, cells);
     if (cells == side) {
       lists[std::size_t((face * side + i) * side + j)] = std::move(here);
@@ -60,14 +65,16 @@ class SupportMap {
       for (const int l : {0, 1}) divide(all, here, face, 2 * i + k, 2 * j + l, 2 * cells, lists);
   }
 
-  // A point p is no better than q along any direction within `reach` of c (both of unit length) if c . (q - p) > reach |q - p|.
-  static std::vector<int> extreme(const std::vector<Vec3<double>>& all, const std::vector<int>& list, int face, int i, int j,
-                                  int cells) {
+  // A point p is no better than q along any direction within `reach` of c (both of unit length) if
+  // c . (q - p) > reach |q - p|.
+  static std::vector<int> extreme(const std::vector<Vec3<double>>& all,
+                                  const std::vector<int>& list, int face, int i, int j, int cells) {
     const auto at = [&](double k) { return 2 * k / cells - 1; };
     const Vec3<double> c = direction(face, at(i + 0.5), at(j + 0.5));
     double reach = 0;
     for (const int k : {0, 1})
-      for (const int l : {0, 1}) reach = std::fmax(reach, length(direction(face, at(i + k), at(j + l)) - c));
+      for (const int l : {0, 1})
+        reach = std::fmax(reach, length(direction(face, at(i + k), at(j + l)) - c));
     reach += 1e-4;  // cells are looked up in single precision
     Vec3<double> best = all[std::size_t(list[0])];
     for (const int k : list)

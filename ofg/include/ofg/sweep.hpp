@@ -1,5 +1,6 @@
-// OFG over one step: do two moving meshes meet, and when? Translational and rotational sweep are one algorithm, on the motion
-// of A as seen from B; its virtual edges are exact for translations and chords of the true paths for turns.
+// OFG over one step: do two moving meshes meet, and when? Translational and rotational sweep are
+// one algorithm, on the motion of A as seen from B; its virtual edges are exact for translations
+// and chords of the true paths for turns.
 #pragma once
 #include "features.hpp"
 #include "stray.hpp"
@@ -7,9 +8,11 @@
 namespace ofg {
 namespace detail {
 
-// Step 1 over a window: spheres swept along the chord between the centres, grown by what the true path strays from it.
+// Step 1 over a window: spheres swept along the chord between the centres, grown by what the true
+// path strays from it.
 template <class T>
-bool swept_spheres_apart(const Mesh<T>& a, const Mesh<T>& b, const Track& track, double t0, double t1, double slack) {
+bool swept_spheres_apart(const Mesh<T>& a, const Mesh<T>& b, const Track& track, double t0,
+                         double t1, double slack) {
   const Vec3<double> ca(a.centre), cb(b.centre);
   const Vec3<double> from = track.between(ca, cb, t0), step = track.between(ca, cb, t1) - from;
   const double along = dot(step, step);
@@ -20,7 +23,8 @@ bool swept_spheres_apart(const Mesh<T>& a, const Mesh<T>& b, const Track& track,
 }
 
 template <class T>
-bool surfaces_meet(const Mesh<T>& a, const Transform<double>& pose, Workspace<T>& w, T scale, Answer& answer) {
+bool surfaces_meet(const Mesh<T>& a, const Transform<double>& pose, Workspace<T>& w, T scale,
+                   Answer& answer) {
   const Transform<T> to_b(pose);
   const T unit = unit_for(scale);
   gather(a, w.a);
@@ -29,7 +33,8 @@ bool surfaces_meet(const Mesh<T>& a, const Transform<double>& pose, Workspace<T>
                     Screened::unknown, w, answer);
 }
 
-// One plane between B's selection and A's at both ends keeps all chords away: none of the tests of the window can hit.
+// One plane between B's selection and A's at both ends keeps all chords away: none of the tests of
+// the window can hit.
 template <class T>
 bool chords_apart(const Mesh<T>& a, const Window<T>& window, T gap, T unit, Workspace<T>& w) {
   for (int i = 0; i < 2; ++i) {
@@ -44,8 +49,9 @@ bool chords_apart(const Mesh<T>& a, const Window<T>& window, T gap, T unit, Work
 
 // Halves the window, testing the first half each time, with all tests of the sweep.
 template <class T>
-double bisection_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, const Options& o, T scale,
-                      Workspace<T>& w, Counts& counts) {
+double bisection_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track,
+                      const Window<T>& window, const Options& o, T scale, Workspace<T>& w,
+                      Counts& counts) {
   double lo = window.t0, hi = window.t1;
   Transform<double> start = window.start;
   for (int i = 0; i < o.iterations; ++i) {
@@ -54,8 +60,8 @@ double bisection_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, co
     ++counts.steps;
     Contact ignored;
     Answer there;
-    const bool hit =
-        features_meet(a, b, start, middle, o, scale, w, ignored, there.counts) || surfaces_meet(a, middle, w, scale, there);
+    const bool hit = features_meet(a, b, start, middle, o, scale, w, ignored, there.counts) ||
+                     surfaces_meet(a, middle, w, scale, there);
     counts.add(there.counts);
     if (hit) {
       hi = mid;
@@ -66,11 +72,11 @@ double bisection_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, co
   return hi;
 }
 
-// The article's second way: move half of the window and test the faces there; if none met, move half of what is left, and so on.
-// NaN where none of the moves meets.
+// The article's second way: move half of the window and test the faces there; if none met, move
+// half of what is left, and so on. NaN where none of the moves meets.
 template <class T>
-double halving_time(const Mesh<T>& a, const Track& track, const Window<T>& window, const Options& o, T scale, Workspace<T>& w,
-                    Counts& counts) {
+double halving_time(const Mesh<T>& a, const Track& track, const Window<T>& window, const Options& o,
+                    T scale, Workspace<T>& w, Counts& counts) {
   double t = window.t0;
   for (int i = 0; i < o.iterations; ++i) {
     t += (window.t1 - t) / 2;
@@ -85,24 +91,28 @@ double halving_time(const Mesh<T>& a, const Track& track, const Window<T>& windo
 
 // The time of a hit between the ends, in the way that was asked for.
 template <class T>
-double time_of_impact(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, const Contact& contact,
-                      const Options& o, T scale, Workspace<T>& w, Counts& counts) {
+double time_of_impact(const Mesh<T>& a, const Mesh<T>& b, const Track& track,
+                      const Window<T>& window, const Contact& contact, const Options& o, T scale,
+                      Workspace<T>& w, Counts& counts) {
   if (o.toi == Toi::velocity) return velocity_time(a, b, track, window, contact);
   if (o.toi == Toi::bisection) return bisection_time(a, b, track, window, o, scale, w, counts);
   if (o.toi == Toi::halving) return halving_time(a, track, window, o, scale, w, counts);
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// Selections for a window: at its start, or also at its end, or also where the centres pass closest.
+// Selections for a window: at its start, or also at its end, or also where the centres pass
+// closest.
 template <class T>
-void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, const Options& o,
-                Workspace<T>& w, Counts& counts) {
+void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window,
+                const Options& o, Workspace<T>& w, Counts& counts) {
   double times[3] = {window.t0, window.t1, window.t1};
   const int n = o.selection_times < 3 ? o.selection_times : 3;
-  double gap = n == 1 ? window.t1 - window.t0 : (window.t1 - window.t0) / 2;  // farthest any time is from one of `times`
+  double gap = n == 1 ? window.t1 - window.t0
+                      : (window.t1 - window.t0) / 2;  // farthest any time is from one of `times`
   const Vec3<double> ca(a.centre), cb(b.centre);
   if (n == 3) {
-    const Vec3<double> from = track.between(ca, cb, window.t0), step = track.between(ca, cb, window.t1) - from;
+    const Vec3<double> from = track.between(ca, cb, window.t0),
+                       step = track.between(ca, cb, window.t1) - from;
     const double along = dot(step, step), share = along > 0 ? -dot(from, step) / along : 0;
     times[1] = window.at(std::fmin(1.0, std::fmax(0.0, share)));
     gap = std::fmax(times[1] - window.t0, window.t1 - times[1]) / 2;
@@ -110,7 +120,9 @@ void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Wi
   Transform<double> pose[3];
   Vec3<T> point[3];
   for (int i = 0; i < n; ++i) {
-    pose[i] = times[i] == window.t0 ? window.start : times[i] == window.t1 ? window.end : track.at(times[i]);
+    pose[i] = times[i] == window.t0   ? window.start
+              : times[i] == window.t1 ? window.end
+                                      : track.at(times[i]);
     point[i] = Transform<T>(pose[i].inverse())(b.centre);
   }
   T reach_a = b.radius, reach_b = 0;
@@ -126,10 +138,11 @@ void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Wi
   select(b, point, n, o, reach_b, w, w.b, counts);
 }
 
-// One plane between the hulls of the whole meshes, with room for the stray: the bodies are apart throughout the window, on their
-// true paths.
+// One plane between the hulls of the whole meshes, with room for the stray: the bodies are apart
+// throughout the window, on their true paths.
 template <class T>
-bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Window<T>& window, T gap, Vec3<T>& axis) {
+bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Window<T>& window, T gap,
+                 Vec3<T>& axis) {
   const Transform<T> start(window.start), end(window.end);
   const T unit = unit_for(std::fmax(scale_of(a, b, start.p), scale_of(a, b, end.p)));
   const Mat3<T> back = start.r.transposed(), back_end = end.r.transposed();
@@ -137,16 +150,18 @@ bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Window<T>& window, T 
   static constexpr T zeros[lanes<T>] = {};
   const CloudView<T> origin{zeros, zeros, zeros, lanes<T>};
   const auto least = [&](const Vec3<T>& v) {
-    const Vec3<T> p = start(support(hull_a, origin, back * v)), q = end(support(hull_a, origin, back_end * v));
+    const Vec3<T> p = start(support(hull_a, origin, back * v)),
+                  q = end(support(hull_a, origin, back_end * v));
     return ((dot(v, p) < dot(v, q) ? p : q) + support(origin, hull_b, v)) * unit;
   };
   return separated(axis, gap * unit, least, 16);
 }
 
-// The virtual edges and the end of one window, on selections of its own; the start too where nothing was tested before it.
+// The virtual edges and the end of one window, on selections of its own; the start too where
+// nothing was tested before it.
 template <class T>
-bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window, bool first, const Options& o,
-                  Workspace<T>& w, Answer& answer) {
+bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window,
+                  bool first, const Options& o, Workspace<T>& w, Answer& answer) {
   Counts& counts = answer.counts;
   const T scale = scale_of(a, b, track, window);
   const T unit = unit_for(scale);
@@ -174,7 +189,8 @@ bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const 
   const auto at_end = [&] {
     if (!surfaces_meet(a, window.end, w, scale, answer)) return false;
     answer.found = window.t1 < 1 ? Found::within : Found::end;
-    answer.time = o.end_moment ? bisection_time(a, b, track, window, o, scale, w, counts) : window.t1;
+    answer.time =
+        o.end_moment ? bisection_time(a, b, track, window, o, scale, w, counts) : window.t1;
     return true;
   };
   const auto in_between = [&] {
@@ -220,15 +236,16 @@ struct Sweep {
            (2 * (double(a.extent) + b.extent + track.arms()) + length(x.start.p) + length(x.end.p));
   }
 
-  // Windows in the order of time, halved until their chords are true enough, or the bodies surely apart. No deeper than 24: a
-  // hundred turns at a tolerance of 1e-6 need 19.
+  // Windows in the order of time, halved until their chords are true enough, or the bodies surely
+  // apart. No deeper than 24: a hundred turns at a tolerance of 1e-6 need 19.
   bool meet(const Window<T>& x, bool first, int depth) {
     ++answer.counts.steps;
     if (depth > 0) {
       ++answer.counts.spheres;
       if (swept_spheres_apart(a, b, track, x.t0, x.t1, slack(x))) return false;
     }
-    const double away = tolerance < std::numeric_limits<double>::infinity() ? stray(a, track, x.t1 - x.t0) : 0;
+    const double away =
+        tolerance < std::numeric_limits<double>::infinity() ? stray(a, track, x.t1 - x.t0) : 0;
     const bool proof = away > 0 || (o.adaptive_k && !track.turns());
     if (proof && away < a.radius && hulls_apart(a, b, x, T(away + slack(x)), axis)) return false;
     const double astray =
@@ -237,7 +254,8 @@ struct Sweep {
       return sweep_window(a, b, track, x, first, o, w, answer);
     const double middle = (x.t0 + x.t1) / 2;
     const Transform<double> pose = track.at(middle);
-    return meet({x.t0, middle, x.start, pose}, first, depth + 1) || meet({middle, x.t1, pose, x.end}, false, depth + 1);
+    return meet({x.t0, middle, x.start, pose}, first, depth + 1) ||
+           meet({middle, x.t1, pose, x.end}, false, depth + 1);
   }
 };
 
@@ -245,7 +263,8 @@ struct Sweep {
 
 // As `overlap`, over the step t in [0, 1] of `track`.
 template <class T>
-Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o, Workspace<T>& w) {
+Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o,
+             Workspace<T>& w) {
   Answer answer;
   const auto slack = [&](const Transform<double>& pose) {
     return rounding<T> * (length(pose.p) + a.extent + b.extent + track.arms());
@@ -255,17 +274,20 @@ Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Optio
   const Vec3<double> ca(a.centre), cb(b.centre);
   const bool rejected =
       o.broad == Broad::start
-          ? detail::spheres_apart(track.between(ca, cb, 0), double(a.radius) + double(b.radius) + slack(window.start))
+          ? detail::spheres_apart(track.between(ca, cb, 0),
+                                  double(a.radius) + double(b.radius) + slack(window.start))
           : detail::swept_spheres_apart(a, b, track, 0, 1, slack(window.start) + slack(window.end));
   if (rejected) return answer;
   const double room = 4 * (slack(window.start) + slack(window.end));
   const bool screens = (o.screen || o.adaptive_k) && !track.turns();
-  if (screens && detail::screened_apart(a, b, window.start, window.end.p - window.start.p, room)) return answer;
+  if (screens && detail::screened_apart(a, b, window.start, window.end.p - window.start.p, room))
+    return answer;
   if (detail::overlaps_at(a, b, window.start, Found::start, slack(window.start), o, w, answer)) {
     answer.hit = true, answer.time = 0;
     return answer;
   }
-  const double tolerance = o.arc_tolerance > 0 ? o.arc_tolerance * a.radius : std::numeric_limits<double>::infinity();
+  const double tolerance =
+      o.arc_tolerance > 0 ? o.arc_tolerance * a.radius : std::numeric_limits<double>::infinity();
   detail::Sweep<T> parts{a, b, track, o, w, answer, tolerance, Vec3<T>(window.start(ca) - cb)};
   answer.hit = parts.meet(window, true, 0);
   if (!answer.hit &&

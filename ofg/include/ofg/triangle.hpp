@@ -1,8 +1,9 @@
 // Tests between triangles, segments and points.
 //
-// Touching counts as meeting. Every test takes `scale`, a bound on the absolute value of the coordinates, and settles nothing by
-// less than a few units of rounding of it: faces closer than that touch. No absolute tolerance occurs anywhere, so scaling by a
-// power of two changes no answer. Degenerate triangles are the segments or points that they are.
+// Touching counts as meeting. Every test takes `scale`, a bound on the absolute value of the
+// coordinates, and settles nothing by less than a few units of rounding of it: faces closer than
+// that touch. No absolute tolerance occurs anywhere, so scaling by a power of two changes no
+// answer. Degenerate triangles are the segments or points that they are.
 #pragma once
 #include <limits>
 
@@ -29,17 +30,21 @@ namespace detail {
 template <class T>
 struct Interval {
   T lo, hi;
-  Interval(T a, T b, T c) : lo(a < b ? (a < c ? a : c) : (b < c ? b : c)), hi(a > b ? (a > c ? a : c) : (b > c ? b : c)) {}
+  Interval(T a, T b, T c)
+      : lo(a < b ? (a < c ? a : c) : (b < c ? b : c)),
+        hi(a > b ? (a > c ? a : c) : (b > c ? b : c)) {}
 };
 
 template <class T>
 inline bool apart_along(const Vec3<T>& axis, const Triangle<T>& s, const Triangle<T>& t, T slack) {
-  const Interval<T> i(dot(axis, s.a), dot(axis, s.b), dot(axis, s.c)), j(dot(axis, t.a), dot(axis, t.b), dot(axis, t.c));
+  const Interval<T> i(dot(axis, s.a), dot(axis, s.b), dot(axis, s.c)),
+      j(dot(axis, t.a), dot(axis, t.b), dot(axis, t.c));
   const T least = slack * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
   return j.lo - i.hi > least || i.lo - j.hi > least;
 }
 
-// So thin that its computed normal is mostly rounding. The threshold decides only whether more axes are tried, never an answer.
+// So thin that its computed normal is mostly rounding. The threshold decides only whether more axes
+// are tried, never an answer.
 template <class T>
 inline bool sliver(const Triangle<T>& t) {
   const Vec3<T> e = t.b - t.a, f = t.c - t.b, g = t.a - t.c, n = t.normal();
@@ -47,7 +52,8 @@ inline bool sliver(const Triangle<T>& t) {
   return !(dot(n, n) > std::sqrt(std::numeric_limits<T>::epsilon()) * longest * longest);
 }
 
-// Two flat-to-a-line triangles in one plane have none of their separating axes among the seventeen: these are the rest.
+// Two flat-to-a-line triangles in one plane have none of their separating axes among the seventeen:
+// these are the rest.
 template <class T>
 inline bool slivers_apart(const Triangle<T>& s, const Triangle<T>& t, T slack) {
   const Vec3<T> e[3] = {s.b - s.a, s.c - s.b, s.a - s.c}, f[3] = {t.b - t.a, t.c - t.b, t.a - t.c};
@@ -56,8 +62,9 @@ inline bool slivers_apart(const Triangle<T>& s, const Triangle<T>& t, T slack) {
     if (apart_along(e[i], s, t, slack) || apart_along(f[i], s, t, slack)) return true;
     for (int j = 0; j < 3; ++j) {
       const Vec3<T> n = cross(e[i], f[j]), w = q[j] - p[i];
-      if (apart_along(cross(n, e[i]), s, t, slack) || apart_along(cross(n, f[j]), s, t, slack) || apart_along(w, s, t, slack) ||
-          apart_along(cross(cross(e[i], w), e[i]), s, t, slack) || apart_along(cross(cross(f[j], w), f[j]), s, t, slack))
+      if (apart_along(cross(n, e[i]), s, t, slack) || apart_along(cross(n, f[j]), s, t, slack) ||
+          apart_along(w, s, t, slack) || apart_along(cross(cross(e[i], w), e[i]), s, t, slack) ||
+          apart_along(cross(cross(f[j], w), f[j]), s, t, slack))
         return true;
     }
   }
@@ -66,9 +73,10 @@ inline bool slivers_apart(const Triangle<T>& s, const Triangle<T>& t, T slack) {
 
 }  // namespace detail
 
-// Do two triangles share a point? Separating axes: the two normals, the nine products of edges and, for triangles in one plane,
-// the six normals of edges within it (Gottschalk, Lin, Manocha 1996, section 5, for triangles). Every axis is a proof of its
-// own, so rounding can cost a verdict only within `rounding` of touching, where the answer is "meet".
+// Do two triangles share a point? Separating axes: the two normals, the nine products of edges and,
+// for triangles in one plane, the six normals of edges within it (Gottschalk, Lin, Manocha 1996,
+// section 5, for triangles). Every axis is a proof of its own, so rounding can cost a verdict only
+// within `rounding` of touching, where the answer is "meet".
 template <class T>
 inline bool triangles_meet(const Triangle<T>& s0, const Triangle<T>& t0, T scale) {
   const Vec3<T> o = t0.a;
@@ -81,12 +89,15 @@ inline bool triangles_meet(const Triangle<T>& s0, const Triangle<T>& t0, T scale
     for (const auto& y : f)
       if (detail::apart_along(cross(x, y), s, t, slack)) return false;
   for (int i = 0; i < 3; ++i)
-    if (detail::apart_along(cross(n, e[i]), s, t, slack) || detail::apart_along(cross(m, f[i]), s, t, slack)) return false;
+    if (detail::apart_along(cross(n, e[i]), s, t, slack) ||
+        detail::apart_along(cross(m, f[i]), s, t, slack))
+      return false;
   return !((detail::sliver(s) || detail::sliver(t)) && detail::slivers_apart(s, t, slack));
 }
 
-// Least parameter in [0, 1] at which the segment p + s (q - p) meets the triangle, or -1. Along an edge that two faces share
-// both use the same three products with opposite sign, so nothing slips through between them.
+// Least parameter in [0, 1] at which the segment p + s (q - p) meets the triangle, or -1. Along an
+// edge that two faces share both use the same three products with opposite sign, so nothing slips
+// through between them.
 template <class T>
 inline T segment_meets(const Vec3<T>& p, const Vec3<T>& q, const Triangle<T>& t, T scale) {
   const Vec3<T> n = t.normal(), d = q - p, a = t.a - p, b = t.b - p, c = t.c - p;
@@ -118,7 +129,8 @@ inline T segment_meets(const Vec3<T>& p, const Vec3<T>& q, const Triangle<T>& t,
   return enter <= leave && dot(n, n) > 0 ? enter : T(-1);
 }
 
-// Squared distance from a point to a triangle (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
+// Squared distance from a point to a triangle (Ericson, Real-Time Collision Detection, 2005,
+// section 5.1.5).
 template <class T>
 inline T squared_distance(const Vec3<T>& p, const Triangle<T>& t) {
   const Vec3<T> ab = t.b - t.a, ac = t.c - t.a, ap = p - t.a;
@@ -126,7 +138,9 @@ inline T squared_distance(const Vec3<T>& p, const Triangle<T>& t) {
     const Vec3<T> d = p - x;
     return dot(d, d);
   };
-  const auto share = [](T part, T all) { return all > 0 ? part / all : T(0); };  // 0 on an edge of no length
+  const auto share = [](T part, T all) {
+    return all > 0 ? part / all : T(0);
+  };  // 0 on an edge of no length
   const T d1 = dot(ab, ap), d2 = dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return to(t.a);
   const Vec3<T> bp = p - t.b;
@@ -140,17 +154,19 @@ inline T squared_distance(const Vec3<T>& p, const Triangle<T>& t) {
   const T vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return to(t.a + ac * share(d2, d2 - d6));
   const T va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return to(t.b + (t.c - t.b) * share(d4 - d3, (d4 - d3) + (d5 - d6)));
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+    return to(t.b + (t.c - t.b) * share(d4 - d3, (d4 - d3) + (d5 - d6)));
   const T sum = va + vb + vc;
   return sum > 0 ? to(t.a + ab * (vb / sum) + ac * (vc / sum)) : to(t.a);
 }
 
-// The segment from p to q, whose ends move by dp and dq, against the segment at rest from a to b: the least time in [0, 1] at
-// which they cross, or -1. The four points lie in one plane at the roots of a quadratic. Edges that stay in one plane all the
-// time, or are parallel to rounding when they meet, are left to the tests of vertices against faces, which see the same contact.
+// The segment from p to q, whose ends move by dp and dq, against the segment at rest from a to b:
+// the least time in [0, 1] at which they cross, or -1. The four points lie in one plane at the
+// roots of a quadratic. Edges that stay in one plane all the time, or are parallel to rounding when
+// they meet, are left to the tests of vertices against faces, which see the same contact.
 template <class T>
-inline T edges_cross(const Vec3<T>& p, const Vec3<T>& q, const Vec3<T>& dp, const Vec3<T>& dq, const Vec3<T>& a, const Vec3<T>& b,
-                     T scale) {
+inline T edges_cross(const Vec3<T>& p, const Vec3<T>& q, const Vec3<T>& dp, const Vec3<T>& dq,
+                     const Vec3<T>& a, const Vec3<T>& b, T scale) {
   const Vec3<T> f = b - a, e = q - p, de = dq - dp, w = p - a;
   const T c0 = triple(e, f, w), c1 = triple(de, f, w) + triple(e, f, dp), c2 = triple(de, f, dp);
   T root[2];
@@ -178,8 +194,10 @@ inline T edges_cross(const Vec3<T>& p, const Vec3<T>& q, const Vec3<T>& dp, cons
     const T nn = dot(n, n), ef = dot(et, et) * dot(f, f);
     if (!(nn > std::numeric_limits<T>::epsilon() * ef)) continue;
     const T s = dot(cross(f, wt), n), u = dot(cross(et, wt), n);
-    if (!(s >= -slack * nn && s <= nn * (1 + slack) && u >= -slack * nn && u <= nn * (1 + slack))) continue;
-    // The root of a polynomial of rounding errors is no contact: the two points must be one, as far as this angle can tell.
+    if (!(s >= -slack * nn && s <= nn * (1 + slack) && u >= -slack * nn && u <= nn * (1 + slack)))
+      continue;
+    // The root of a polynomial of rounding errors is no contact: the two points must be one, as far
+    // as this angle can tell.
     const Vec3<T> gap = wt + et * (s / nn) - f * (u / nn);
     const T least = slack * scale;
     if (dot(gap, gap) * nn <= least * least * ef) return t;

@@ -70,7 +70,9 @@ constexpr T unit_for(T scale) {
 template <class T>
 struct Mat3 {
   Vec3<T> row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  constexpr Vec3<T> operator*(const Vec3<T>& v) const { return {dot(row[0], v), dot(row[1], v), dot(row[2], v)}; }
+  constexpr Vec3<T> operator*(const Vec3<T>& v) const {
+    return {dot(row[0], v), dot(row[1], v), dot(row[2], v)};
+  }
   constexpr Mat3 transposed() const {
     Mat3 m;
     m.row[0] = {row[0].x, row[1].x, row[2].x};
@@ -81,7 +83,8 @@ struct Mat3 {
   constexpr Mat3 operator*(const Mat3& m) const {
     const Mat3 c = m.transposed();
     Mat3 r;
-    for (int i = 0; i < 3; ++i) r.row[i] = {dot(row[i], c.row[0]), dot(row[i], c.row[1]), dot(row[i], c.row[2])};
+    for (int i = 0; i < 3; ++i)
+      r.row[i] = {dot(row[i], c.row[0]), dot(row[i], c.row[1]), dot(row[i], c.row[2])};
     return r;
   }
 };

@@ -25,15 +25,19 @@ long count() {
   ofg::Options repaired;
   repaired.nearest = ofg::Nearest::triangle, repaired.selection_times = 3,
   repaired.arc_tolerance = 1e-3;
-  repaired.adaptive_k = repaired.both_vertices = repaired.edge_edge = repaired.containment = repaired.earliest = true;
+  repaired.adaptive_k = repaired.both_vertices = repaired.edge_edge = repaired.containment =
+      repaired.earliest = true;
   const long before = allocations;
   for (int i = 0; i < 200; ++i)
     for (int k : {1, 8, 40, 100000}) {
       ofg::Options written;
-      written.k = k, written.toi = i % 2 ? ofg::Toi::velocity : ofg::Toi::bisection, written.concave = ofg::Concave(i % 3);
-      const ofg::Pose p{{u(random), u(random), u(random), 1}, {2 * u(random), 2 * u(random), u(random)}},
+      written.k = k, written.toi = i % 2 ? ofg::Toi::velocity : ofg::Toi::bisection,
+      written.concave = ofg::Concave(i % 3);
+      const ofg::Pose p{{u(random), u(random), u(random), 1},
+                        {2 * u(random), 2 * u(random), u(random)}},
           q{{1, u(random), 0, 0}, {}};
-      const ofg::Motion m{{u(random), u(random), u(random)}, {u(random), 1, 0}, i % 4 ? u(random) : 0};
+      const ofg::Motion m{
+          {u(random), u(random), u(random)}, {u(random), 1, 0}, i % 4 ? u(random) : 0};
       for (const auto& o : {written, repaired}) {
         ofg::overlap(a, b, {p, q}, o, w);
         ofg::sweep(a, b, {p, q, m}, o, w);

@@ -1,4 +1,5 @@
-// Random closed meshes for the native tests, from round ones to such as no modeller would own up to.
+// Random closed meshes for the native tests, from round ones to such as no modeller would own up
+// to.
 #pragma once
 #include <cstdint>
 #include <random>
@@ -12,7 +13,8 @@ struct Shape {
 };
 
 // A sphere of `rings` by `sides`, each vertex moved by `roughness`, scaled to a box.
-inline Shape sphere(int rings, int sides, double roughness, double sx, double sy, double sz, std::mt19937_64& random) {
+inline Shape sphere(int rings, int sides, double roughness, double sx, double sy, double sz,
+                    std::mt19937_64& random) {
   std::uniform_real_distribution<double> noise(1 - roughness, 1 + roughness);
   Shape s;
   const auto push = [&](double x, double y, double z) {
@@ -31,7 +33,8 @@ inline Shape sphere(int rings, int sides, double roughness, double sx, double sy
   for (int j = 0; j < sides; ++j) {
     s.f.insert(s.f.end(), {0, at(1, j), at(1, j + 1)});
     for (int i = 1; i + 1 < rings; ++i)
-      s.f.insert(s.f.end(), {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      s.f.insert(s.f.end(), {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1),
+                             at(i, j + 1)});
     s.f.insert(s.f.end(), {last, at(rings - 1, j + 1), at(rings - 1, j)});
   }
   return s;

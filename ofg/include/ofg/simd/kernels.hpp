@@ -10,14 +10,17 @@ namespace ofg {
 
 constexpr int block_faces = 16;  // faces in a block: one or two registers of the widest set
 template <class T>
-constexpr int lanes = 64 / int(sizeof(T));  // arrays are padded to a multiple of the widest register
-constexpr int most_ranked = 128;            // candidates up to which counting ranks beats sorting
+constexpr int lanes =
+    64 / int(sizeof(T));          // arrays are padded to a multiple of the widest register
+constexpr int most_ranked = 128;  // candidates up to which counting ranks beats sorting
 
 template <class T>
 struct Candidate {
   T distance;  // squared
   int face;
-  bool operator<(const Candidate& c) const { return distance < c.distance || (distance == c.distance && face < c.face); }
+  bool operator<(const Candidate& c) const {
+    return distance < c.distance || (distance == c.distance && face < c.face);
+  }
 };
 
 template <class T>
@@ -31,7 +34,8 @@ struct IntOf<float> {
   using type = int;
 };
 
-// Face centres in blocks of neighbours, each with a bounding box of its centres. Padding lies infinitely far away.
+// Face centres in blocks of neighbours, each with a bounding box of its centres. Padding lies
+// infinitely far away.
 template <class T>
 struct BlockView {
   const T *x, *y, *z;
@@ -65,9 +69,11 @@ struct BoxView {
   const T *lo[3], *hi[3];
 };
 
-constexpr int list_unit = 16;  // points in a list of a SupportMap: a register of the widest set in single precision
+constexpr int list_unit =
+    16;  // points in a list of a SupportMap: a register of the widest set in single precision
 
-// For each cell of a cube map of directions, side x side on each of six faces, lists of the points extreme there.
+// For each cell of a cube map of directions, side x side on each of six faces, lists of the points
+// extreme there.
 struct SupportView {
   const float* points;
   const int* first;  // list of each cell; then the end
@@ -83,27 +89,33 @@ struct PosedPairs {
   float gap[most_posed];         // that makes them apart; below zero: nobody asks
 };
 
-// What PosedPairs need to know of two bodies, and the gap that counts: rounding (1 + way) + slack (extents + way), the way in units
-// of the sum of the radii first and then as it is.
+// What PosedPairs need to know of two bodies, and the gap that counts: rounding (1 + way) + slack
+// (extents + way), the way in units of the sum of the radii first and then as it is.
 struct PairOfBodies {
   double centre_a[3], centre_b[3], radius_a, radius_b, rounding, slack, extents;
 };
 
 template <class T>
 struct Kernels {
-  int (*nearest)(const BlockView<T>&, const T* point, int k, NearestScratch<T>&, Candidate<T>* found, int* evaluated);
+  int (*nearest)(const BlockView<T>&, const T* point, int k, NearestScratch<T>&,
+                 Candidate<T>* found, int* evaluated);
   void (*support)(const CloudView<T>& a, const CloudView<T>& b, const T* axis, T* difference);
   T (*farthest)(const T* x, const T* y, const T* z, int n, const T* point);
-  void (*planes_apart)(const TriangleView<T>&, int n, const T* triangle, T slack, unsigned char* apart);
+  void (*planes_apart)(const TriangleView<T>&, int n, const T* triangle, T slack,
+                       unsigned char* apart);
   bool (*edges_apart)(const T* s, const T* t, T slack, T* best);
   T (*planes_gap)(const TriangleView<T>&, int n, const CloudView<T>&, T* normal);
-  void (*segments_miss)(const TriangleView<T>&, int n, const T* segment, T slack, unsigned char* miss);
+  void (*segments_miss)(const TriangleView<T>&, int n, const T* segment, T slack,
+                        unsigned char* miss);
   void (*boxes_apart)(const BoxView<T>&, int n, const T* box, T slack, unsigned char* apart);
   void (*transform)(T* x, T* y, T* z, int n, const T* rows, const T* shift);
   void (*extreme)(const SupportView&, const float* axis, float* point);
-  void (*reflect)(const SupportView& a, const SupportView& b, const PosedPairs&, int n, int axes, unsigned char* verdict);
-  void (*portal)(const SupportView& a, const SupportView& b, const PosedPairs&, int n, unsigned char* verdict);
-  void (*pose_pairs)(const PairOfBodies&, const double* poses_a, const double* poses_b, int n, PosedPairs&);
+  void (*reflect)(const SupportView& a, const SupportView& b, const PosedPairs&, int n, int axes,
+                  unsigned char* verdict);
+  void (*portal)(const SupportView& a, const SupportView& b, const PosedPairs&, int n,
+                 unsigned char* verdict);
+  void (*pose_pairs)(const PairOfBodies&, const double* poses_a, const double* poses_b, int n,
+                     PosedPairs&);
 };
 
 }  // namespace ofg
@@ -129,7 +141,8 @@ struct Kernels {
 #undef OFG_BYTES
 #ifdef __clang__
 #pragma clang attribute pop
-#pragma clang attribute push(__attribute__((target("avx512f,avx512vl,avx512dq,avx512bw"))), apply_to = function)
+#pragma clang attribute push(__attribute__((target("avx512f,avx512vl,avx512dq,avx512bw"))), \
+                             apply_to = function)
 #else
 #pragma GCC pop_options
 #pragma GCC push_options
@@ -149,13 +162,17 @@ struct Kernels {
 
 namespace ofg {
 
-enum class Isa { sse2, avx2, avx512 };  // "sse2" is plain 16-byte vectors on machines that are not x86
+enum class Isa {
+  sse2,
+  avx2,
+  avx512
+};  // "sse2" is plain 16-byte vectors on machines that are not x86
 
 inline Isa widest_isa() {
 #ifdef OFG_HAS_X86
   __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512bw"))
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
     return Isa::avx512;
   if (__builtin_cpu_supports("avx2")) return Isa::avx2;
 #endif
@@ -172,7 +189,8 @@ Kernels<T> kernels_of(Isa isa) {
   return sse2::kernels<T>();
 }
 
-// The kernels in use: those of the widest instruction set of the machine, or those that set_isa chose.
+// The kernels in use: those of the widest instruction set of the machine, or those that set_isa
+// chose.
 template <class T>
 inline Kernels<T> kernels = kernels_of<T>(widest_isa());
 

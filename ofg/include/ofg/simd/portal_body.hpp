@@ -1,6 +1,7 @@
-// Part of kernels_body.hpp, compiled once per instruction set under the same rules: a portal towards the origin through the
-// difference of two point sets, for as many pairs at once as a register has lanes (Snethen, XenoCollide, in Game Programming
-// Gems 7, 2008). Only the support function looks at one pair at a time.
+// Part of kernels_body.hpp, compiled once per instruction set under the same rules: a portal
+// towards the origin through the difference of two point sets, for as many pairs at once as a
+// register has lanes (Snethen, XenoCollide, in Game Programming Gems 7, 2008). Only the support
+// function looks at one pair at a time.
 typedef Lane<float>::V Wide;
 typedef Lane<float>::I Mask;
 typedef Packed<float> Point;
@@ -16,21 +17,25 @@ OFG_INLINE bool any(Mask m) {
   return some;
 }
 
-// The cell of a cube map that each direction falls in. Anything that is no direction falls in some cell.
+// The cell of a cube map that each direction falls in. Anything that is no direction falls in some
+// cell.
 OFG_INLINE Mask cells_of(const Point& d, int side) {
   const Wide zero = {};
-  const Wide sx = d.x < zero ? -d.x : d.x, sy = d.y < zero ? -d.y : d.y, sz = d.z < zero ? -d.z : d.z;
+  const Wide sx = d.x < zero ? -d.x : d.x, sy = d.y < zero ? -d.y : d.y,
+             sz = d.z < zero ? -d.z : d.z;
   const Mask x = (sx >= sy) & (sx >= sz), y = ~x & (sy >= sz);
   const Wide major = either(x, sx, either(y, sy, sz)), sign = either(x, d.x, either(y, d.y, d.z));
   const Wide half = all(0.5f * float(side)) / major, last = all(float(side - 1));
-  Wide u = (either(x, d.y, either(y, d.z, d.x)) + major) * half, v = (either(x, d.z, either(y, d.x, d.y)) + major) * half;
+  Wide u = (either(x, d.y, either(y, d.z, d.x)) + major) * half,
+       v = (either(x, d.z, either(y, d.x, d.y)) + major) * half;
   u = u > zero ? u : zero, v = v > zero ? v : zero;  // and what is not a number
   u = u < last ? u : last, v = v < last ? v : last;
   const Mask face = (x ? Mask{} : y ? Mask{} + 2 : Mask{} + 4) - (sign < zero);
   return (face * side + __builtin_convertvector(u, Mask)) * side + __builtin_convertvector(v, Mask);
 }
 
-// The point of a list least along an axis, but for sixteen units of rounding: its number rides in the last bits of its product.
+// The point of a list least along an axis, but for sixteen units of rounding: its number rides in
+// the last bits of its product.
 OFG_INLINE void least_of_cell(const SupportView& m, int cell, const float* axis, float* point) {
   constexpr int w = OFG_BYTES / 4;
   const float* list = m.points + 3 * list_unit * m.first[cell];
@@ -43,7 +48,8 @@ OFG_INLINE void least_of_cell(const SupportView& m, int cell, const float* axis,
   for (const float* at = list; at < end; at += 3 * list_unit) {
     Wide low = {};
     for (int i = 0; i < list_unit; i += w) {
-      const Wide v = ax * load(at + i) + ay * load(at + list_unit + i) + az * load(at + 2 * list_unit + i);
+      const Wide v =
+          ax * load(at + i) + ay * load(at + list_unit + i) + az * load(at + 2 * list_unit + i);
       Mask bits;
       __builtin_memcpy(&bits, &v, sizeof v);
       bits = (bits & ~(list_unit - 1)) | (number + i);
@@ -74,7 +80,8 @@ static void extreme(const SupportView& m, const float* axis, float* point) {
   least_of_cell(m, cell, axis, point);
 }
 
-// The lanes that are open, as a list: a branch on each lane would be mispredicted whenever one closes.
+// The lanes that are open, as a list: a branch on each lane would be mispredicted whenever one
+// closes.
 struct OpenLanes {
   int lane[OFG_BYTES / 4], count;
 };
@@ -117,8 +124,10 @@ struct Pairs {
 };
 
 // The point of A - B farthest along d.
-OFG_INLINE Point support_of(const SupportView& a, const SupportView& b, const Pairs& q, const Point& d, Mask open) {
-  const Point back{-(q.r[0] * d.x + q.r[3] * d.y + q.r[6] * d.z), -(q.r[1] * d.x + q.r[4] * d.y + q.r[7] * d.z),
+OFG_INLINE Point support_of(const SupportView& a, const SupportView& b, const Pairs& q,
+                            const Point& d, Mask open) {
+  const Point back{-(q.r[0] * d.x + q.r[3] * d.y + q.r[6] * d.z),
+                   -(q.r[1] * d.x + q.r[4] * d.y + q.r[7] * d.z),
                    -(q.r[2] * d.x + q.r[5] * d.y + q.r[8] * d.z)};
   const OpenLanes lanes = lanes_of(open);
   const Point s = least(a, back, lanes), t = least(b, d, lanes);
@@ -136,14 +145,17 @@ OFG_INLINE Mask beyond(const Point& w, const Point& d, Wide gap) {
 OFG_INLINE Pairs pairs_at(const PosedPairs& pairs, int from) {
   Pairs q;
   for (int i = 0; i < 9; ++i) q.r[i] = load(pairs.r[i] + from);
-  q.between = {load(pairs.between[0] + from), load(pairs.between[1] + from), load(pairs.between[2] + from)};
+  q.between = {load(pairs.between[0] + from), load(pairs.between[1] + from),
+               load(pairs.between[2] + from)};
   q.size_b = load(pairs.size_b + from), q.gap = load(pairs.gap + from);
   return q;
 }
 
-// Of n pairs, n a multiple of the lanes of float: 1, their hulls are apart by more than the gap; 0, no verdict. A few axes are
-// tried: that of the centres, then each reflected at the point of A - B that stands in its way (Chung and Wang 1996).
-static void reflect(const SupportView& a, const SupportView& b, const PosedPairs& pairs, int n, int axes, unsigned char* verdict) {
+// Of n pairs, n a multiple of the lanes of float: 1, their hulls are apart by more than the gap; 0,
+// no verdict. A few axes are tried: that of the centres, then each reflected at the point of A - B
+// that stands in its way (Chung and Wang 1996).
+static void reflect(const SupportView& a, const SupportView& b, const PosedPairs& pairs, int n,
+                    int axes, unsigned char* verdict) {
   constexpr int w = OFG_BYTES / 4;
   for (int from = 0; from < n; from += w) {
     const Pairs q = pairs_at(pairs, from);
@@ -163,7 +175,8 @@ static void reflect(const SupportView& a, const SupportView& b, const PosedPairs
 }
 
 // As reflect, until it is settled; and 2: their hulls seem to meet.
-static void portal(const SupportView& a, const SupportView& b, const PosedPairs& pairs, int n, unsigned char* verdict) {
+static void portal(const SupportView& a, const SupportView& b, const PosedPairs& pairs, int n,
+                   unsigned char* verdict) {
   constexpr int w = OFG_BYTES / 4, most_steps = 24;
   const Wide zero = {};
   for (int from = 0; from < n; from += w) {
@@ -175,7 +188,8 @@ static void portal(const SupportView& a, const SupportView& b, const PosedPairs&
     apart = open & beyond(v1, d, q.gap);
     open &= ~apart;
     d = turned<float>(v1, v0);
-    const Mask in_line = open & ~(times<float>(d, d) > all(1e-12f) * times<float>(v0, v0) * times<float>(v1, v1));
+    const Mask in_line =
+        open & ~(times<float>(d, d) > all(1e-12f) * times<float>(v0, v0) * times<float>(v1, v1));
     meet |= in_line, open &= ~in_line;
     Point v2 = support_of(a, b, q, d, open), v3 = v2;
     Mask out = open & beyond(v2, d, q.gap);
@@ -199,9 +213,12 @@ static void portal(const SupportView& a, const SupportView& b, const PosedPairs&
       const Wide gain = times<float>(minus<float>(s, v1), d);
       open &= ~(refine & ~((gain > zero) & (gain * gain > q.gap * q.gap * times<float>(d, d))));
       const Point c = turned<float>(s, v0);
-      const Mask one = times<float>(v1, c) > zero, two = times<float>(v2, c) > zero, three = times<float>(v3, c) > zero;
-      const Mask first = refine & ((one & two) | (~one & ~three)), second = refine & ~one & three, third = refine & one & ~two;
-      v1 = either(right | first, s, v1), v2 = either(left | second, s, v2), v3 = either(found | third, s, v3);
+      const Mask one = times<float>(v1, c) > zero, two = times<float>(v2, c) > zero,
+                 three = times<float>(v3, c) > zero;
+      const Mask first = refine & ((one & two) | (~one & ~three)), second = refine & ~one & three,
+                 third = refine & one & ~two;
+      v1 = either(right | first, s, v1), v2 = either(left | second, s, v2),
+      v3 = either(found | third, s, v3);
       seeking &= ~found;
       const Mask base = seeking;
       const Point corner = either(base, v0, v1);  // of the triangle whose normal is next
@@ -248,15 +265,17 @@ OFG_INLINE void rotation_of(const Lane<double>::V* q, Lane<double>::V* m) {
   m[6] = q[1] * z - q[0] * y, m[7] = q[2] * z + q[0] * x, m[8] = 1.0 - (q[1] * x + q[2] * y);
 }
 
-// PosedPairs of poses in rows of seven, quaternion and position; with one division a rotation, which is near enough.
-static void pose_pairs(const PairOfBodies& bodies, const double* poses_a, const double* poses_b, int n,
-                       PosedPairs& out) {
+// PosedPairs of poses in rows of seven, quaternion and position; with one division a rotation,
+// which is near enough.
+static void pose_pairs(const PairOfBodies& bodies, const double* poses_a, const double* poses_b,
+                       int n, PosedPairs& out) {
   constexpr int w = OFG_BYTES / 8;
   typedef Lane<double>::V V;
   typedef Packed<double> P;
   double rows[14][most_posed];
   for (int i = 0; i < n; ++i)
-    for (int j = 0; j < 7; ++j) rows[j][i] = poses_a[7 * i + j], rows[7 + j][i] = poses_b[7 * i + j];
+    for (int j = 0; j < 7; ++j)
+      rows[j][i] = poses_a[7 * i + j], rows[7 + j][i] = poses_b[7 * i + j];
   const int padded = (n + w - 1) / w * w;
   for (int j = 0; j < 14; ++j)
     for (int i = n; i < padded; ++i) rows[j][i] = 0;
@@ -274,7 +293,8 @@ static void pose_pairs(const PairOfBodies& bodies, const double* poses_a, const 
     rotation_of(r, m), rotation_of(q, back);
     const P d{load(rows[4] + i) - load(rows[11] + i), load(rows[5] + i) - load(rows[12] + i),
               load(rows[6] + i) - load(rows[13] + i)};
-    const P shift{back[0] * d.x + back[3] * d.y + back[6] * d.z, back[1] * d.x + back[4] * d.y + back[7] * d.z,
+    const P shift{back[0] * d.x + back[3] * d.y + back[6] * d.z,
+                  back[1] * d.x + back[4] * d.y + back[7] * d.z,
                   back[2] * d.x + back[5] * d.y + back[8] * d.z};
     const double *a = bodies.centre_a, *b = bodies.centre_b;
     const P x{((m[0] * a[0] + m[1] * a[1] + m[2] * a[2]) + shift.x - b[0]) * unit,
@@ -283,7 +303,8 @@ static void pose_pairs(const PairOfBodies& bodies, const double* poses_a, const 
     const V gap = bodies.rounding * (1 + sum_of_sizes<double>(x)) +
                   bodies.slack * unit * (bodies.extents + sum_of_sizes<double>(shift));
     for (int j = 0; j < 9; ++j) narrow(m[j] * own, out.r[j] + i);
-    narrow(x.x, out.between[0] + i), narrow(x.y, out.between[1] + i), narrow(x.z, out.between[2] + i);
+    narrow(x.x, out.between[0] + i), narrow(x.y, out.between[1] + i),
+        narrow(x.z, out.between[2] + i);
     narrow(gap, out.gap + i);
     narrow(all(bodies.radius_b * unit), out.size_b + i);
   }

@@ -51,9 +51,8 @@ def test_end_hit_arrives_on_the_aimed_side_of_the_end():
             assert truth.t_lo - slack <= 1 - level <= truth.t_hi + slack
 
 
-@pytest.mark.parametrize(
-    "name", [name for name in scenarios() if name != "large_mesh"]
-)  # a second and more per label
+# A label of large_mesh takes a second and more.
+@pytest.mark.parametrize("name", [name for name in scenarios() if name != "large_mesh"])
 def test_both_answers_occur_and_few_cases_are_left_open(name):
     scenario = get(name)
     found = [
@@ -93,9 +92,8 @@ def test_thin_pair_is_in_contact_for_its_share_of_the_step_and_at_any_time_of_it
             truth = label(case.query)
             if case.tags["place"] == "through":
                 assert truth.start == truth.end == "clear", case.id
-                assert 0.4 <= (case.tags["crossing"] - truth.t_lo) * level <= 0.6, (
-                    case.id
-                )  # half of 1 / level before the centres meet
+                # half of 1 / level before the centres meet
+                assert 0.4 <= (case.tags["crossing"] - truth.t_lo) * level <= 0.6, case.id
                 begun.append(truth.t_lo)
     assert min(begun) < 0.15 and max(begun) > 0.85
 
