@@ -7,8 +7,8 @@ verdict, where the rows are, the limits) are given to the decorator.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
 from experiments.publish.findings.runs import UNMEASURED, Missing, Runs
 

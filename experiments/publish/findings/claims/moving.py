@@ -71,8 +71,9 @@ def thin_walls(runs: Runs):
 )
 def flights(runs: Runs):
     found = rows(runs.answers(runs.board), question="translation")
-    every, own, whole = rate(found, method="brute-force"), *(
-        or_reason(rate, found, method=m) for m in ("ofg k=8", "ofg k=8 repairs=all")
+    every, own, whole = (
+        rate(found, method="brute-force"),
+        *(or_reason(rate, found, method=m) for m in ("ofg k=8", "ofg k=8 repairs=all")),
     )
 
     def features():
