@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import matplotlib
 
+from baselines.label import name_of
+
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
@@ -94,7 +96,7 @@ def panels(methods: list[str]) -> list[tuple[str, list[str]]]:
     """Engine and at most PER_PANEL of its methods, in the order of the table."""
     known, own = registry.methods(), {}
     for label in methods:
-        name = label.split()[0]
+        name = name_of(label)
         engine = (
             "no engine"
             if label == piece_truth.NAME

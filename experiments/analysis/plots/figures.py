@@ -8,6 +8,8 @@ import io
 
 import matplotlib
 
+from baselines.label import curve_of, name_of
+
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
@@ -171,7 +173,7 @@ def _panel(axis, part: pd.DataFrame, styles) -> None:
     axis.plot(
         front.us, 100 * front.rate, color="0.4", lw=4, alpha=0.35, drawstyle="steps-post", zorder=1
     )
-    for name, group in part.groupby(part.method.map(curve), sort=False):
+    for name, group in part.groupby(part.method.map(curve_of), sort=False):
         colour, marker = styles[name]
         axis.plot(group.us, 100 * group.rate, color=colour, lw=1, zorder=2)
         axis.errorbar(
@@ -233,20 +235,12 @@ def _panel(axis, part: pd.DataFrame, styles) -> None:
     axis.grid(alpha=0.25, lw=0.5)
 
 
-def curve(label: str) -> str:
-    """What the points of one curve have in common: the label without the parameter that the curve
-    runs over.
-    """
-    name, *words = label.split()
-    return " ".join([name, *words[1:]])
-
-
 def _styles(methods) -> dict[str, tuple[str, str]]:
     """A colour per engine, a marker per curve of that engine."""
     known = registry.methods()
     styles, seen = {}, {}
-    for name in dict.fromkeys(map(curve, methods)):
-        engine = known[name.split()[0]].engine if name.split()[0] in known else name
+    for name in dict.fromkeys(map(curve_of, methods)):
+        engine = known[name_of(name)].engine if name_of(name) in known else name
         colour, count = seen.get(engine, (COLOURS[len(seen) % len(COLOURS)], 0))
         # an engine with more curves than markers goes on in colours that other engines leave
         more = count // len(MARKERS)

@@ -205,10 +205,10 @@ def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
     for method in (m for spec in config.asked for m in registry.make(spec)):
 
         def lost(case, loss, label=method.label):
-            return answering._row(case, label, loss.status, detail=loss.detail)
+            return answering.row(case, label, loss.status, detail=loss.detail)
 
         tasks.append(
-            pool.Task(answering._open, (method.label, config), [explained.case], rows.extend, lost)
+            pool.Task(answering.asker, (method.label, config), [explained.case], rows.extend, lost)
         )
     pool.run(
         tasks,
