@@ -77,7 +77,8 @@ def text() -> str:
 
 
 def _row(s: Scenario) -> str:
-    what = sys.modules[s.generate.__module__].__doc__.strip()
+    # One line, however the docstring is wrapped: a row of a table ends at a line break.
+    what = " ".join(sys.modules[s.generate.__module__].__doc__.split())
     picture = f'<img src="figures/{s.name}.png" width="220" alt="{s.name}">'
     return (
         f"| [{s.name}]({s.name}.py) | {picture} | {what} | {s.exposes} | {s.axis}:"
