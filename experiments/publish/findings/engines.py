@@ -71,10 +71,8 @@ def board(found: pd.DataFrame, heading: str) -> list[dict]:
         [],
     )
     judged = found[found.outcome.isin(outcome.JUDGED)]
-    wrong = (
-        judged.wrong
-        .groupby([judged.method, judged.scenario], sort=False)
-        .agg(["sum", "size", "mean"])
+    wrong = judged.wrong.groupby([judged.method, judged.scenario], sort=False).agg(
+        ["sum", "size", "mean"]
     )
     for method in found.method.unique():
         row = {"method": method, "configuration": configuration_of(method)}

@@ -1,4 +1,4 @@
-"""Writes README.md of this folder from the scenarios themselves: python -m
+"""Write the README of the scenario families from the scenarios: python -m
 experiments.publish.gallery.page
 """
 
@@ -19,45 +19,46 @@ QUESTIONS = {
 HEAD = """\
 # Scenario families
 
-Made by `python -m experiments.publish.gallery.page` from the scenarios in this folder; the
-pictures by `python -m experiments.publish.gallery.draw experiments/cases/families/figures`. A is
-blue, B is orange; the later places of a body that moves are pale, a straight arrow is its
-displacement and a curved one its turn.
+`python -m experiments.publish.gallery.page` writes this page from the scenarios in this folder, and
+`python -m experiments.publish.gallery.draw experiments/cases/families/figures` draws the pictures.
+A is blue and B is orange. Later places of a moving body are pale, a straight arrow is its
+displacement, and a curved arrow is its turn.
 
-A family is one file. It draws two bodies and a motion at a level of difficulty, and *aims*: at a
-gap, a feature, a time. What the right answer is, it does not say: that is certified afterwards,
-by `experiments/truth`. Every family here declares `precision="float32"`: each number of a case,
-those of its vertices included, is a float32 number, so that engines in single and double
-precision are asked the same question.
+A family is one file. It draws two bodies and a motion at a level of difficulty, and *aims* at a
+gap, a feature or a time. It does not state the right answer, which `experiments/truth` certifies
+afterwards. Every family here declares `precision="float32"`: each number of a case, including
+those of its vertices, is a float32 number, so that engines in single and double precision receive
+the same query.
 """
 TAIL = """\
 ## How a gap of 1e-16 is reached
 
 `placement.seat` rests A on B by one feature of each. Both bodies are moved in their own frames
-until the contact is at the frame's origin and their features lie in the plane z = 0 to the bit;
-both rotations are integer quaternions with a common part, so that the planes coincide exactly,
-which the pose (a rotation N(q)/|q|^2, never normalised) can express. Then A's position *is* the
-gap along the normal, a small number with seven digits of its own. Where a long path is wanted as
-well, the path goes into A's position and the gap into B's: no sum of a large and a small number
-is ever rounded. `tests/experiments/cases/families` checks this in rational arithmetic. A quarter
-of the cases keep the world's axes (tag `aligned`), because exactly symmetrical input is where
-engines fail.
+until the contact is at the origin of the frame and their features lie exactly in the plane z = 0.
+Both rotations are integer quaternions with a common factor, so that the planes coincide exactly;
+the pose can represent this, because its rotation is N(q)/|q|^2 and is never normalised. Then A's
+position *is* the gap along the normal, a small number with seven digits of its own. If a long path
+is required as well, the path goes into A's position and the gap into B's: no sum of a large and a
+small number is ever rounded. `tests/experiments/cases/families` checks this in rational
+arithmetic. A quarter of the cases keep the world's axes (tag `aligned`), because engines fail on
+exactly symmetrical input.
 
-`python -m experiments.truth.audit.aim` labels some cases of each level and prints how many are
-hits, clear and uncertain, and how closely the certified gap comes to the one aimed at.
+`python -m experiments.truth.audit.aim` labels some cases of each level. It prints how many are
+hit, clear and uncertain, and how closely the certified gap matches the gap aimed at.
 
 ## A family of your own
 
-Copy `feature_gap.py`, which is complete, change its name, and give the file's path wherever a
-scenario's name is asked for. To make it one of these, put it into this folder (the file is called
-like the scenario), say in `draw.py` which of its cases to show, and run the two commands at the
-top of this page. A scenario draws everything from the `rng` it is given and returns a `Draft`;
-`Scenario.case(seed, level, index)` makes the same case for the same arguments whatever was made
-before. Bodies come from `experiments/cases/shapes.py` or from `ofg.Body`;
-`experiments/cases/placement.py` has the constructions that several families share.
-`redraw_if=("start-overlap",)` draws a sweep again whose truth is that it starts in overlap. Its
-`precision` is "float64" unless it declares "float32": the case is then what was drawn, number for
-number, and the tables mark engines that cannot hold it.
+Copy `feature_gap.py`, which is complete, change its name, and pass the path of the file wherever
+the name of a scenario is required. To add it to these families, put it into this folder (the file
+has the name of the scenario), select in `draw.py` which of its cases to show, and run the two
+commands at the top of this page. A scenario draws everything from its argument `rng` and returns a
+`Draft`; `Scenario.case(seed, level, index)` returns the same case for the same arguments,
+independent of earlier calls. Bodies come from `experiments/cases/shapes.py` or from `ofg.Body`;
+`experiments/cases/placement.py` provides the constructions that several families share.
+`redraw_if=("start-overlap",)` rejects a draw of a sweep that is certified to start in overlap, and
+draws again. The `precision` is "float64" unless the scenario declares "float32"; a float64 case
+consists of exactly the numbers that were drawn, and the tables mark engines that cannot represent
+it.
 """
 
 
@@ -68,7 +69,7 @@ def text() -> str:
     for question, asks in QUESTIONS.items():
         rows = [_row(s) for s in own if s.question == question]
         head = (
-            "| family | | what it is | what it exposes | difficulty: levels |\n| --- | --- | --- |"
+            "| family | | description | exposes | difficulty: levels |\n| --- | --- | --- |"
             " --- | --- |"
         )
         parts.append("\n".join([f"## {question}\n", asks + "\n", head, *rows, ""]))
@@ -76,7 +77,8 @@ def text() -> str:
 
 
 def _row(s: Scenario) -> str:
-    what = sys.modules[s.generate.__module__].__doc__.strip()
+    # One line, however the docstring is wrapped: a row of a table ends at a line break.
+    what = " ".join(sys.modules[s.generate.__module__].__doc__.split())
     picture = f'<img src="figures/{s.name}.png" width="220" alt="{s.name}">'
     return (
         f"| [{s.name}]({s.name}.py) | {picture} | {what} | {s.exposes} | {s.axis}:"

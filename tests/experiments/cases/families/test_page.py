@@ -16,6 +16,12 @@ def test_page_is_up_to_date():
     )
 
 
+def test_every_row_of_a_table_is_one_line():
+    # A docstring of two lines broke its row in two, and with it the table.
+    rows = [line for line in page.text().splitlines() if line.startswith("| [")]
+    assert len(rows) == len(OWN) and all(row.endswith(" |") for row in rows)
+
+
 @pytest.mark.parametrize("name", OWN)
 def test_every_family_has_a_view_and_a_small_picture(name):
     assert name in draw.VIEWS, "say in draw.py which case shows this family best"
