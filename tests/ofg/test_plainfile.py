@@ -100,8 +100,8 @@ def test_a_few_bytes_after_a_binary_stl_are_passed_over(tmp_path):
 
 
 REFUSED = {  # the second cube of the first two was dropped without a word
-    "cut_in_a_number.stl": (TWO[: TWO.rindex("vertex") - 60].encode(), "24 facets.*cut off"),
-    "cut_in_a_facet.stl": (TWO[: TWO.rindex("facet normal") + 30].encode(), "cut off"),
+    "cut_in_a_number.stl": (TWO[: TWO.rindex("vertex") - 60].encode(), "24 facets.*truncated"),
+    "cut_in_a_facet.stl": (TWO[: TWO.rindex("facet normal") + 30].encode(), "truncated"),
     "said_more.stl": (stl(SOUP, said=20), "says 20 triangles, but it is as long as 12"),
     "said_less.stl": (stl(SOUP, said=10), "says 10 triangles, but it is as long as 12"),
     "cut.stl": (stl(SOUP)[:-30], "says 12 triangles, but it is as long as 11.4"),
