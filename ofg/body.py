@@ -83,7 +83,7 @@ class Body(Frozen):
             ) from error
         wrong = [p for p in pieces if not isinstance(p, Body) or p.kind != "convex"]
         if not pieces or wrong:
-            what = f"{_what(wrong[0])} was given" if wrong else "none was given"
+            what = f"was given {_what(wrong[0])}" if wrong else "was given none"
             raise BodyError(
                 f"Body '{name}': a union needs one convex piece or more, but {what}; make each "
                 "with Body.convex."

@@ -185,7 +185,8 @@ def test_a_crack_is_welded_on_request_and_not_beyond(tmp_path):
 def test_a_chain_of_near_vertices_is_not_welded_to_one():
     v = np.column_stack([np.arange(300.0), np.zeros(300), np.zeros(300)])
     with pytest.raises(
-        BodyError, match="crate: weld = 1.5 joins vertices that are 299 apart, by others between"
+        BodyError,
+        match="crate: weld = 1.5 joins vertices that are 299 apart through others between",
     ):
         solid.welded(v, np.empty((0, 3), int), 1.5, "crate")
 
