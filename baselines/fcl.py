@@ -155,8 +155,8 @@ class FclDistance(FclConvex):
     """Overlap by the sign of the signed distance.
 
     Aborts the process (uncaught std::logic_error in EPA) near contact: cubes face to face, rotated
-    together, 6, 3, 8, 4, 2 of 600 at
-    -1e-8, -1e-9, -1e-10, -1e-11, -1e-12. It is a separate method so that its rows show this.
+    together, 6, 3, 8, 4, 2 of 600 at -1e-8, -1e-9, -1e-10, -1e-11, -1e-12. It is a separate method
+    so that its rows show this.
     """
 
     name = "fcl-distance"

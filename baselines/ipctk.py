@@ -126,9 +126,8 @@ class IpctkCcdExact(Normalised, IpctkCcd):
 
     n = 256 is the smallest power of two for which the chords of a full rotation stay within CHORD
     of the radius from the arc. On 120 hits and 120 clears with a rotation, drawn from the standard
-    run,
-    n = 16, 64, 256 miss 7, 0, 0 and report no clear one as a hit; the median call takes 5.0, 9.5,
-    29 ms.
+    run, n = 16, 64, 256 miss 7, 0, 0 and report no clear one as a hit; the median call takes 5.0,
+    9.5, 29 ms.
     """
 
     name = "ipctk-ccd-exact"
