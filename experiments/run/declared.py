@@ -149,8 +149,8 @@ def _notices(config: RunConfig, known) -> list[str]:
         spec.split()[0] for spec in config.asked if spec.split() and spec.split()[0] not in known
     )
     said += [
-        f"Method '{name}' is unknown and so is its declaration (its tolerance is taken as none); "
-        f"pass --trust to load {files}."
+        f"Method '{name}' is not known here; its declaration is unknown (its tolerance is "
+        f"taken as none); pass --trust to load {files}."
         for name in unknown
     ]
     return said

@@ -86,7 +86,7 @@ def ask(query: Query, faces: int, depth: str, case: int) -> Iterator[dict]:
 def measure(cases: int, seed: int) -> pd.DataFrame:
     """All rows. k is 0 if it is adaptive (repairs)."""
     rng, rows = np.random.default_rng(seed), []
-    with stage("ask hulls of each size", len(FACES)) as advance:
+    with stage("query hulls of each size", len(FACES)) as advance:
         for faces in FACES:
             n = cases if faces < 5120 else max(cases // 4, 1)  # a label takes longer there
             for depth, (low, high) in DEPTHS.items():

@@ -80,7 +80,7 @@ def counts(names: list[str], workers: int) -> pd.DataFrame:
         chunks = [asked[i : i + answering.CHUNK] for i in range(0, len(asked), answering.CHUNK)]
         tasks += [Task(_open, (name, unit, limits), chunk, rows.extend, _lost) for chunk in chunks]
     seconds, total = limits.build_seconds + limits.query_seconds, sum(len(t.items) for t in tasks)
-    with tempfile.TemporaryDirectory() as folder, stage("ask in each unit", total) as advance:
+    with tempfile.TemporaryDirectory() as folder, stage("query in each unit", total) as advance:
         run(mixed(tasks), workers, seconds, Path(folder, "log"), advance)
     return pd.DataFrame([_count(*key, rows, truth) for key, rows in found.items()])
 

@@ -79,7 +79,7 @@ def _asked(config, cases, workers, own, found: Findings) -> list[dict]:
             ]
     total = sum(len(task.items) for task in tasks)
     seconds = config.build_seconds + config.query_seconds
-    with tempfile.TemporaryDirectory() as folder, stage("ask again", total) as advance:
+    with tempfile.TemporaryDirectory() as folder, stage("repeat answers", total) as advance:
         run(tasks, workers, seconds, Path(folder, "log"), advance, own and partial(load_files, own))
     return rows
 
