@@ -26,8 +26,8 @@ from .findings import Findings
 
 
 def check(config, frames, names, count: int, seed, workers, own, found: Findings) -> None:
-    """Refuses by case and method. count: of cases, -1 for all. seed: of the random selection;
-    None: unpredictable, so that nobody can know the cases beforehand.
+    """Findings are by case and method. count: of cases, -1 for all. seed: of the random
+    selection; None: unpredictable, so that nobody can know the cases beforehand.
     """
     seed = secrets.randbits(32) if seed is None else seed
     n = len(names) if count < 0 else min(count, len(names))

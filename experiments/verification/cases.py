@@ -36,7 +36,7 @@ SAID = ("label", "start", "end", "touching", "reason")
 
 
 def check(store: Store, config, slots, names, workers, own, found: Findings) -> None:
-    """own: the configuration whose files a process may run, or None. Refuses by case."""
+    """own: the configuration whose files a process may run, or None. Findings are by case."""
     items = [(name, slots[name]) for name in names]
     chunks = [items[i : i + CHUNK] for i in range(0, len(items), CHUNK)]
     results = [[] for _ in chunks]

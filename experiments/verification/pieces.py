@@ -17,7 +17,7 @@ from .findings import Findings
 
 
 def check(config, frames, names, workers: int, found: Findings) -> None:
-    """names: the cases to check. Refuses by case and by body."""
+    """names: the cases to check. Findings are by case and by body."""
     if "pieces" not in frames:
         if _wanted(config):
             found.note(

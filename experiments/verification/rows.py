@@ -138,7 +138,9 @@ def expected(config, cases: pd.DataFrame, found: Findings) -> dict[str, Slot]:
 
 
 def check(config, frames, slots, found: Findings) -> list[str]:
-    """Refuses by rows. Returns the cases that occur once, in their order, for further checks."""
+    """Findings are by row. Returns the cases that occur once, in their order, for further
+    checks.
+    """
     counts = Counter(frames["cases"].case)
     _counted("cases.parquet", counts, slots, found)
     if list(counts) != [name for name in slots if name in counts]:

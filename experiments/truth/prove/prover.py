@@ -180,8 +180,8 @@ def _wide(n) -> list:
 
 
 def _inside(query, found, t) -> dict:
-    """The native point is relative to A's point of turning and B's displacement; the certificate's
-    is in the world.
+    """The native point is relative to A's centre of rotation and B's displacement; the
+    certificate's is in the world.
     """
     point = [Fraction(hi) + Fraction(lo) for hi, lo in zip(found["point"][:3], found["point"][3:])]
     shift = add(
