@@ -64,16 +64,16 @@ class Article(Method):
 
     def __init__(self, **parameters):
         super().__init__(**parameters)
-        _check(self.name, self._options)
+        _check(self.name, self.options)
         self.precision = "single" if self.parameters["precision"] == "float" else "double"
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
         query = replace(query, a=_pieces(query.a), b=_pieces(query.b))
-        ask = ofg.prepare(query, algorithm=ARTICLE, **self._options())
+        ask = ofg.prepare(query, algorithm=ARTICLE, **self.options())
         return lambda: Verdict(*ask())
 
-    def _options(self) -> dict:
+    def options(self) -> dict:
         return {**self.parameters, "k": _faces(self.parameters["k"])}
 
 
@@ -126,10 +126,10 @@ class OpposingFaceGeometry(Method):
 
     def __init__(self, **parameters):
         super().__init__(**parameters)
-        _check(self.name, self._options)
+        _check(self.name, self.options)
         repaired = {
             name
-            for name, value in self._options().items()
+            for name, value in self.options().items()
             if name in _REPAIRED and value != type(self).parameters[name]
         }
         self.solid = "containment" in repaired
@@ -141,7 +141,7 @@ class OpposingFaceGeometry(Method):
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
-        options = self._options()
+        options = self.options()
         if self.decomposes:
             query = replace(query, a=_pieces(query.a), b=_pieces(query.b))
         ask = ofg.prepare(query, **options)
@@ -150,10 +150,10 @@ class OpposingFaceGeometry(Method):
     @property
     def decomposes(self) -> bool:
         """Whether meshes are decomposed before the query."""
-        options = self._options()
+        options = self.options()
         return options.get("concave") != "undivided" and not options.get("adaptive_k")
 
-    def _options(self) -> dict:
+    def options(self) -> dict:
         """The core's options: the repairs, overridden by options given by name. ValueError for
         an unknown repair.
         """
