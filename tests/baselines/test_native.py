@@ -145,5 +145,5 @@ def test_the_lane_is_asked_about_relative_motion(tmp_path):
         native.write(tmp_path / name, [query])
     assert (tmp_path / "alone").read_bytes() == (tmp_path / "both").read_bytes()
     turning = replace(alone, question="motion", motion=Motion(angle=1), motion_b=Motion(angle=1))
-    with pytest.raises(Unsupported, match="both bodies turn"):
+    with pytest.raises(Unsupported, match="both bodies rotate"):
         native.write(tmp_path / "none", [turning])
