@@ -71,9 +71,11 @@ def python_lane(names: list[str], asked: list[Query], timing: TimingChoice) -> p
 
 def native_lane(asked: list[Query], timing: TimingChoice, core: int | None) -> pd.DataFrame:
     """A row per engine: hits and net nanoseconds (medians over rounds, then over cases, less the floor's)."""
-    rows = native.run(asked, timing.rounds, timing.warmup, core)
-    rows["ns"] = rows.filter(like="round").median(axis=1)
+    taken = native.run(asked, rounds=timing.rounds, warmup=timing.warmup, core=core)
+    rows = taken.times.assign(ns=taken.times.filter(like="round").median(axis=1), case=taken.times.block)
+    rows = rows.merge(taken.answers, on=["id", "case"]).join(taken.contestants, on="id")
     floor = rows[rows.engine == native.FLOOR].ns.median()
+    rows = rows[~rows.isa.isin(["SSE2", "AVX2", "x86-64-v3"])]
     groups = rows[rows.engine != native.FLOOR].sort_values("case").groupby("engine")
     return pd.DataFrame([{"method": engine, "hits": [bool(h) for h in group.hit], "native": group.ns.median() - floor} for engine, group in groups])
 
