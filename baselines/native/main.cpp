@@ -31,6 +31,21 @@ struct Floor final : lane::Engine {
   lane::Verdict ask(std::size_t) override { return {false}; }
 };
 
+// The same arithmetic every time: how much its time varies is how much the machine was disturbed.
+struct Probe final : lane::Engine {
+  volatile double kept = 1;
+  Probe() : Engine("(noise probe)") { isa = build_of = ""; }
+  bool answers(lane::Question) const override { return true; }
+  bool takes_meshes() const override { return true; }
+  void build(const std::vector<lane::Body>&, const std::vector<lane::Case>&) override {}
+  lane::Verdict ask(std::size_t) override {
+    double x = kept;
+    for (int i = 0; i < 500; ++i) x = 0.999 * x + 1e-3;  // each waits for the one before
+    kept = x;
+    return {false};
+  }
+};
+
 struct Contestant {
   lane::Engine* engine;
   lane::Mode mode;
@@ -56,6 +71,7 @@ std::vector<lane::Mode> modes_of(const std::string& words) {
 lane::Engines opened(int n, char** plugins) {
   lane::Engines engines;
   engines.push_back(std::make_unique<Floor>());
+  engines.push_back(std::make_unique<Probe>());
   for (int i = 0; i < n; ++i) {
     void* plugin = dlopen(plugins[i], RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
     void* made = plugin ? dlsym(plugin, "lane_engines") : nullptr;

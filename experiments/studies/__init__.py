@@ -1,0 +1,1 @@
+"""Studies beside the runs, each with a command of its own."""
