@@ -1,7 +1,7 @@
 // FCL's continuous request on hulls: as it comes, and conservative advancement at its best, as
 // baselines/fcl.py asks it.
-#include <cstdlib>
 #include <cstring>
+#include <new>
 
 #include "fcl_shapes.hpp"
 
@@ -11,17 +11,23 @@ struct Leg {
   fcl::Transform3d start_a, stop_a, b;
 };
 
-// CCDM_LINEAR reads its reference point before anything has written it: two blocks of zeros are
-// left where malloc looks first for its two InterpMotions.
-void zero_motions() {
-  constexpr std::size_t bytes = sizeof(fcl::InterpMotion<double>) + 2 * sizeof(void*);  // shared
-  void* const blocks[] = {std::malloc(bytes), std::malloc(bytes)};
-  for (void* block : blocks) {
-    std::memset(block, 0, bytes);
-    asm volatile("" : : "r"(block) : "memory");  // or the compiler drops what nobody reads
+// An InterpMotion reads its reference point before anything has written it: it is made where zeros
+// are, the origin, which FCL documents. So are those of CCDM_LINEAR in baselines/fcl.py.
+class Interpolated {
+ public:
+  Interpolated(const fcl::Transform3d& from, const fcl::Transform3d& to) {
+    std::memset(place_, 0, sizeof place_);
+    asm volatile("" : : "r"(place_) : "memory");  // or the compiler drops what nobody reads
+    motion_ = ::new (place_) fcl::InterpMotion<double>(from, to);
   }
-  for (void* block : blocks) std::free(block);
-}
+  ~Interpolated() { motion_->~InterpMotion(); }
+  Interpolated(const Interpolated&) = delete;
+  const fcl::InterpMotion<double>* get() const { return motion_; }
+
+ private:
+  alignas(fcl::InterpMotion<double>) unsigned char place_[sizeof(fcl::InterpMotion<double>)];
+  fcl::InterpMotion<double>* motion_;
+};
 
 struct Cast : lane::Engine {
   fcl::ContinuousCollisionRequestd request;
@@ -55,8 +61,13 @@ struct Cast : lane::Engine {
     for (std::size_t k = 0; k < legs[i].size(); ++k) {
       const auto& [start, stop, at_b] = legs[i][k];
       fcl::ContinuousCollisionResultd result;
-      if (linear()) zero_motions();
-      fcl::continuousCollide(a, start, stop, b, at_b, at_b, request, result);
+      if (linear()) {
+        const Interpolated of_a(start, stop), of_b(at_b, at_b);
+        const fcl::MotionBased *motion_a = of_a.get(), *motion_b = of_b.get();
+        fcl::continuousCollide(a, motion_a, b, motion_b, request, result);
+      } else {
+        fcl::continuousCollide(a, start, stop, b, at_b, at_b, request, result);
+      }
       if (result.is_collide)
         return {true, (double(k) + result.time_of_contact) / double(legs[i].size())};
     }
