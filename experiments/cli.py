@@ -19,6 +19,7 @@ from .given import markup
 from .machine import ERRNOS, MachineError
 from .reading import opened, reading
 from .store import Store, StoreError
+from .studies.native.command import native
 
 app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", pretty_exceptions_enable=False, add_completion=False,
                   help="""Benchmark collision detection on cases whose true answers are certified.
@@ -333,6 +334,9 @@ def check(name: Annotated[str, typer.Argument(metavar="METHOD", help='a method, 
         failed += sum(not ok for _, ok, _ in results)
         _print_grid(method.label, ("property", "", "detail"), [(n, "ok" if ok else "FAILED", detail) for n, ok, detail in results])
     raise typer.Exit(1 if failed else 0)
+
+
+app.command()(native)
 
 
 def _say_missing(config: configuration.RunConfig) -> None:

@@ -1,0 +1,39 @@
+"""ofg-bench native: build the native lane with what is found here, and time everything in it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Optional
+
+import typer
+
+Run = Annotated[Optional[Path], typer.Argument(
+    help="folder of a run, whose certified cases are asked [default: hulls by size]")]
+Cases = Annotated[int, typer.Option(min=1, help="cases of a cell, each with bodies of its own")]
+Poses = Annotated[int, typer.Option(min=32, help="poses of a cell of one pair; a quarter of them"
+                                                 " from 1,280 faces on")]
+Rounds = Annotated[int, typer.Option(min=3, help="timed rounds")]
+Seed = Annotated[int, typer.Option(min=0, help="of bodies and poses; a run has its own")]
+Core = Annotated[int, typer.Option(min=-1, help="the core to run on; -1: any")]
+Python = Annotated[bool, typer.Option("--python", help="ask the methods from Python, too")]
+Out = Annotated[Optional[Path], typer.Option(
+    help="folder for rows.parquet and native.md, which has more tables than are printed")]
+
+
+def native(run: Run = None, cases: Cases = 24, poses: Poses = 512, rounds: Rounds = 11,
+           seed: Seed = 1, core: Core = 0, python: Python = False, out: Out = None) -> None:
+    """Time OFG and the engines as C++ libraries on the same cases: who errs, at what cost.
+
+    With a RUN: its certified cases of convex bodies and meshes. The table goes into its report.
+    Without: pairs of 12 to 5,120 faces, apart, in each other and flying, with certified labels.
+    OFG_NATIVE=required makes an engine that cannot be built an error.
+    """
+    from baselines.native import NativeError
+
+    from .study import study
+
+    try:
+        study(run, cases, poses, rounds, seed, None if core < 0 else core, python, out)
+    except NativeError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(1) from error
