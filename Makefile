@@ -5,14 +5,14 @@ RUN ?= results/runs/quick
 PRESET ?= quick
 NATIVE := CMakeLists.txt pyproject.toml $(shell find ofg experiments/truth -name '*.[hc]pp' -o -name CMakeLists.txt)
 
-.PHONY: help env build quick test engines native bench-ofg bench-truth crosscheck attack drill fuzz fuzz-boundary reproduce clean
+.PHONY: help env build quick test engines native native-v3 bench-truth crosscheck attack drill fuzz fuzz-boundary reproduce clean
 help:
 	@echo "make quick        set up, build, run the main job in a few minutes, print its tables"
 	@echo "make test         set up, build, run every test"
 	@echo "make engines      install the further engines too: coal, rapier, parry, ipctk, drake"
-	@echo "make native       build the native lane (the libraries asked from C++) with what is found here, and compare both lanes"
+	@echo "make native       time OFG and the engines as C++ libraries, with what is found here (ofg-bench native)"
+	@echo "make native-v3    build FCL, libccd and Bullet for x86-64-v3 from their packages' sources, for make native"
 	@echo "make reproduce    run every experiment and the standard preset into results/, and write the findings (under an hour)"
-	@echo "make bench-ofg    time OFG step by step, by size and k, beside the native engines"
 	@echo "make bench-truth  certified labels a second on the standard mix"
 	@echo "make crosscheck   ask CGAL's exact kernel and dense sampling about the labels"
 	@echo "make attack       corrupt thousands of certificates: the checker must refuse them"
@@ -43,10 +43,10 @@ engines: build
 	$(BIN)/pip install --disable-pip-version-check coal rapier3d ipctk py-parry3d drake==1.51.1
 
 native: build
-	$(BIN)/python -m experiments.native
+	$(BIN)/ofg-bench native
 
-bench-ofg: build
-	$(BIN)/python -m experiments.bench_ofg
+native-v3: build
+	PATH="$(CURDIR)/$(BIN):$$PATH" baselines/native/sources.sh
 
 bench-truth: build
 	$(BIN)/python -m experiments.truth.bench

@@ -10,6 +10,7 @@ import pandas as pd
 from baselines import registry
 
 from .. import metrics
+from ..studies.native.classes import V3
 from .runs import Missing, Rate, Runs, grid, interval, listed, or_reason, rate, ratio, rows, wrong_rate
 
 ENGINES = {  # heading -> distributions; sampled methods stand under a heading of their own
@@ -106,10 +107,16 @@ def impact(runs: Runs, of: Callable) -> dict:
 
 
 def native(runs: Runs, of: Callable) -> dict:
-    found = rows(runs.file("native/native.csv"), situation="apart")
-    wide = found.pivot(index="method", columns="faces", values="native")
-    over = wide / rows(found, method=OURS).set_index("faces").native
-    return {m: ", ".join(f"{faces} faces {v:.2f}" for faces, v in over.loc[m].items()) for m in of(found) if m != OURS}
+    found = runs.file("native/rows.parquet")
+    found = rows(found[found["class"].isin(["generic", V3])], situation="gap", mode="cold")
+    wide = found.pivot_table(index="engine", columns=["class", "faces"], values="ns", observed=True,
+                             sort=False)
+    over = wide / wide.loc[OURS]
+    told = of(found.assign(method=found.engine.astype(str)))
+    return {
+        m: ", ".join(f"{name} {faces} faces {v:.2f}" for (name, faces), v in over.loc[m].items())
+        for m in told if m != OURS
+    }
 
 
 def python(runs: Runs, of: Callable) -> dict:
@@ -144,7 +151,7 @@ LINES = (  # what a line is about; the table; what it says of an engine's method
         "impact/tables/impact-latest.md",
         impact,
     ),
-    (f"Time over that of {OURS}, native, pairs apart", "native/native.md", native),
+    (f"Time over that of {OURS}, in C++, small gaps, by class of build", "native/native.md", native),
     (
         f"Net time over that of {OURS}, from Python, 0 where it is not above the method's own floor",
         "faces/tables/faces-ratio.md",

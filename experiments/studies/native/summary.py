@@ -24,7 +24,9 @@ def summary(times: pd.DataFrame, answers: pd.DataFrame) -> pd.DataFrame:
     """
     parts = []
     for name in CLASSES:
-        for cell, rows in standing(times, name).groupby(CELL, sort=False):
+        stands = standing(times, name)
+        alike = stands["mode"].replace("batch", "warm")  # asked the same queries
+        for (*cell, _), rows in stands.groupby([*CELL, alike], sort=False):
             made = _rows(rows)
             if name == "AVX-512":
                 made = [row for row in made if library(row["engine"]) == "OFG"]
