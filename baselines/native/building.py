@@ -44,10 +44,15 @@ def build(folder: Path = FOLDER) -> tuple[list[str], list[str]]:
     if outcome.returncode:
         said = last(outcome.stderr or outcome.stdout)
         missing.append(f"some plugin: it does not compile here ({said})")
-    if missing and os.environ.get(REQUIRED) == "required":
-        raise NativeError(f"{REQUIRED}=required, and the native lane is without "
-                          + "; without ".join(missing))
+    demand(missing)
     return stand, missing
+
+
+def demand(missing: list[str]) -> None:
+    """NativeError where something is missing and OFG_NATIVE says that all is required."""
+    if missing and os.environ.get(REQUIRED) == "required":
+        lacking = "; without ".join(missing)
+        raise NativeError(f"{REQUIRED}=required, and the native lane is without {lacking}")
 
 
 def standing(folder: Path = FOLDER) -> list[str]:

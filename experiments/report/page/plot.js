@@ -185,7 +185,7 @@ async function drawPlot() {
   }
   words.textContent =
     (F.lane === "native"
-      ? "Native times are of the libraries in one C++ loop, on pairs of their own of these sizes (experiments/native.py); rates are of this run's cases. "
+      ? "Native times are of the libraries in one C++ loop, on some of this run's cases (ofg-bench native); rates are of all of them. "
       : "") +
     `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: answers only part of them, and is not on the Pareto front (choose the cases that all answer, above, to compare all). At ≤ 0.05: no dearer than the method's own floor. Whiskers: 95 % Wilson intervals. Labels that would cover others are left out. A click on a point shows the cases behind it; the leaderboard above holds the same figures.`;
 }

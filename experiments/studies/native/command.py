@@ -16,12 +16,14 @@ Rounds = Annotated[int, typer.Option(min=3, help="timed rounds")]
 Seed = Annotated[int, typer.Option(min=0, help="of bodies and poses; a run has its own")]
 Core = Annotated[int, typer.Option(min=-1, help="the core to run on; -1: any")]
 Python = Annotated[bool, typer.Option("--python", help="ask the methods from Python, too")]
+Build = Annotated[bool, typer.Option("--build", help="build what is found, and time nothing")]
 Out = Annotated[Optional[Path], typer.Option(
     help="folder for rows.parquet and native.md, which has more tables than are printed")]
 
 
 def native(run: Run = None, cases: Cases = 24, poses: Poses = 512, rounds: Rounds = 11,
-           seed: Seed = 1, core: Core = 0, python: Python = False, out: Out = None) -> None:
+           seed: Seed = 1, core: Core = 0, python: Python = False, out: Out = None,
+           build: Build = False) -> None:
     """Time OFG and the engines as C++ libraries on the same cases: who errs, at what cost.
 
     With a RUN: its certified cases of convex bodies and meshes. The table goes into its report.
@@ -30,9 +32,12 @@ def native(run: Run = None, cases: Cases = 24, poses: Poses = 512, rounds: Round
     """
     from baselines.native import NativeError
 
-    from .study import study
+    from .study import head, study
 
     try:
+        if build:
+            print("\n".join(head()))
+            return
         study(run, cases, poses, rounds, seed, None if core < 0 else core, python, out)
     except NativeError as error:
         typer.echo(str(error), err=True)

@@ -35,7 +35,7 @@ def study(
 
     NativeError where the lane cannot be built or run; StoreError where `run` is no finished run.
     """
-    head = _head(*engines.build())
+    built = head()
     if run is None:
         cells = list(synthetic.cells(cases, poses // 32 * 32, seed))
         asked = f"Hulls, cubes and icospheres by size, labels certified, seed {seed}."
@@ -47,7 +47,7 @@ def study(
     made = saving.facts(asked=asked, rounds=rounds)
     times, answers, both, noise = _measured(cells, rounds, core, python)
     rows = summary(times, answers)
-    facts = [asked, f"{rounds} rounds.", *head, _noise(noise)]
+    facts = [asked, f"{rounds} rounds.", *built, _noise(noise)]
     facts += _against(Store(run), rows, answers) if run else []
     facts = [line for fact in facts for line in (fact, "")]
     print(page(rows, facts, parts=False) + _both(both))
@@ -68,7 +68,12 @@ def _measured(cells: list[Cell], rounds: int, core: int | None, python: bool) ->
     return pd.concat(times, ignore_index=True), pd.concat(answers, ignore_index=True), both, noise
 
 
-def _head(stand: list[str], missing: list[str]) -> list[str]:
+def head() -> list[str]:
+    """Build what is found. The machine and the plugins that stand; a line for each that does not.
+
+    NativeError as baselines.native.build.
+    """
+    stand, missing = engines.build()
     machine = manifest.machine()
     lines = [f"{machine['cores']} cores, {machine['processor']}. Plugins: {', '.join(stand)}."]
     return lines + [f"Left out: {line}." for line in missing]
