@@ -1,8 +1,8 @@
 """Bullet's continuous convex casts, which its C++ library alone has: a native plugin asks them.
 
 btSubsimplexConvexCast and btGjkConvexCast know translations, btContinuousConvexCollision turns
-too. A union is asked in pairs of pieces, of which the earliest hit counts. `make native` builds the
-plugin where Bullet's headers are found.
+too. A union is asked in pairs of pieces, of which the earliest hit counts. `ofg-bench native
+--build` builds the plugin where Bullet's headers are found.
 
 By their documentation bodies must not overlap at the start; btSubSimplexConvexCast.h advises to
 test that by btGjkPairDetector, which the best effort does.

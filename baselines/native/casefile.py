@@ -16,7 +16,7 @@ from ..units import Normalised
 
 
 def write(path: Path, queries: list[Query], block: int = 1, apart: bool = False) -> None:
-    """Each body once, then a case per query; `block` of them, one after the other, are timed as one.
+    """Each body once, then a case per query; `block` of them, one after the other, are one timing.
 
     apart: every query gets bodies of its own, even where two are equal. ValueError for a union, or
     where the queries are no whole number of blocks. Unsupported where both bodies turn.

@@ -39,7 +39,8 @@ struct Cast : lane::Engine {
 
   bool linear() const { return request.ccd_motion_type == fcl::CCDM_LINEAR; }
   bool answers(lane::Question question) const override {
-    return question == lane::Question::translation || (linear() && question == lane::Question::motion);
+    return question == lane::Question::translation ||
+           (linear() && question == lane::Question::motion);
   }
 
   void build(const std::vector<lane::Body>& bodies, const std::vector<lane::Case>& cases) override {

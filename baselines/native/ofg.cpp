@@ -59,8 +59,10 @@ struct Ofg final : lane::Engine {
   lane::Verdict ask(std::size_t i) override {
     const lane::Case& c = cases[i];
     const ofg::Body<T>&a = bodies[c.a], &b = bodies[c.b];
-    if (Last < 8)
-      return {ofg::overlap<Last>(a.whole, b.whole, {poses_a[i], poses_b[i]}, options, workspace).hit};
+    if (Last < 8) {
+      const ofg::Track still(poses_a[i], poses_b[i]);
+      return {ofg::overlap<Last>(a.whole, b.whole, still, options, workspace).hit};
+    }
     const auto& [d, k] = std::pair(c.displacement, c.axis);
     const ofg::Motion motion{{d[0], d[1], d[2]}, {k[0], k[1], k[2]}, c.angle};
     const ofg::Track track(poses_a[i], poses_b[i], motion, {});

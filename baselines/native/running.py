@@ -51,7 +51,7 @@ def run(
     bodies turn.
     """
     if not (folder / "lane").is_file():
-        raise NativeError("The native lane is not built; build it with: make native")
+        raise NativeError("The native lane is not built; build it with: ofg-bench native --build")
     with tempfile.TemporaryDirectory() as scratch:
         cases = Path(scratch, "cases")
         write(cases, queries, block, apart="cold" in modes)

@@ -9,24 +9,24 @@ mkdir -p "${1:-build/native}"
 to=$(cd "${1:-build/native}" && pwd)
 jobs=${JOBS:-2}
 command -v dpkg-source >/dev/null || {
-  echo "sources.sh needs dpkg-source: apt-get install dpkg-dev, or another system than Debian's." >&2
+  echo "sources.sh needs dpkg-source of a Debian: apt-get install dpkg-dev" >&2
   exit 1
 }
 fetched="$to/sources"
 if [ ! -e "$fetched/.ready" ]; then
-  mkdir -p "$fetched/apt/parts" "$fetched/apt/state/lists/partial" \
-    "$fetched/apt/cache/archives/partial"
+  parts="$fetched/apt/parts"
+  mkdir -p "$parts" "$fetched/apt/state/lists/partial" "$fetched/apt/cache/archives/partial"
   for list in /etc/apt/sources.list /etc/apt/sources.list.d/debian.list; do
-    [ ! -e "$list" ] || sed -n 's/^deb /deb-src /p' "$list" >"$fetched/apt/parts/$(basename "$list").list"
+    [ ! -e "$list" ] || sed -n 's/^deb /deb-src /p' "$list" >>"$parts/old.list"
   done
   for list in /etc/apt/sources.list.d/debian.sources; do
-    [ ! -e "$list" ] || sed 's/^Types: deb$/Types: deb-src/' "$list" >"$fetched/apt/parts/debian.sources"
+    [ ! -e "$list" ] || sed 's/^Types: deb$/Types: deb-src/' "$list" >"$parts/debian.sources"
   done
   cd "$fetched"
   set -- -qq -o Dir::State="$PWD/apt/state" -o Dir::Cache="$PWD/apt/cache" \
     -o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts="$PWD/apt/parts"
   apt-get "$@" update
-  apt-get "$@" source fcl libccd bullet
+  apt-get "$@" source fcl libccd bullet >/dev/null
   touch .ready
   cd - >/dev/null
 fi
@@ -39,8 +39,8 @@ flags="-O3 -DNDEBUG -march=x86-64-v3"
 build() {  # NAME OPTION...
   name=$1
   shift
-  cmake -S "$(folder "$name")" -B "$to/v3-$name" $common "$@" -DCMAKE_C_FLAGS="$flags" \
-    -DCMAKE_CXX_FLAGS="$flags" >/dev/null
+  cmake -S "$(folder "$name")" -B "$to/v3-$name" $common "$@" -DCMAKE_C_FLAGS="$flags -w" \
+    -DCMAKE_CXX_FLAGS="$flags -w" -Wno-dev -Wno-deprecated --no-warn-unused-cli >/dev/null
   cmake --build "$to/v3-$name" --target install -j "$jobs" >/dev/null
   echo "$name stands in $to/v3"
 }

@@ -13,7 +13,7 @@ from baselines.native import library
 from ofg import Motion, Pose, Query
 
 CASTS = ("subsimplex", "gjk", "continuous")
-built = pytest.mark.skipif(bool(library.missing("libbullet")), reason="built by: make native")
+built = pytest.mark.skipif(bool(library.missing("libbullet")), reason="built by: ofg-bench native --build")
 
 
 def verdict(name: str, query: Query):
@@ -70,7 +70,7 @@ def test_a_cast_that_does_not_converge_is_halved():
 def test_what_is_not_built_says_how_to_build_it(monkeypatch, tmp_path):
     monkeypatch.setattr(library, "FOLDER", tmp_path)
     cls = registry.methods()["bullet-continuous-cast"]
-    assert "make native" in registry.available(cls) and registry.version(cls) == "absent"
+    assert "native --build" in registry.available(cls) and registry.version(cls) == "absent"
     with pytest.raises(MissingEngine, match="libbullet-dev"):
         library.load.__wrapped__("libbullet")
 

@@ -25,7 +25,8 @@ def folder(tmp_path_factory):
     if not COMPILER:
         pytest.skip("no C++ compiler called c++")
     base = tmp_path_factory.getbasetemp()
-    to = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "native"  # one for all workers
+    # one for all workers
+    to = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "native"
     (to / "plugins").mkdir(parents=True, exist_ok=True)
     with open(to / "lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
@@ -138,7 +139,7 @@ def test_what_the_lane_does_not_take(folder, tmp_path):
         native.write(tmp_path / "cases", [overlap("union", (3, 0, 0))])
     with pytest.raises(ValueError, match="blocks of 3"):
         native.write(tmp_path / "cases", queries(), block=3)
-    with pytest.raises(native.NativeError, match="make native"):
+    with pytest.raises(native.NativeError, match="ofg-bench native --build"):
         native.run(queries(), folder=tmp_path)
     (tmp_path / "plugins").mkdir()
     (tmp_path / "plugins" / "bad.so").write_text("no library")

@@ -150,7 +150,10 @@ def test_the_certified_cases_of_a_run_are_each_in_one_cell():
     assert max(len(cell.cases) for cell in certified.cells(QUICK, 3)) == 3
 
 
-@pytest.mark.parametrize("situation, label", [("gap", "clear"), ("shallow", "hit"), ("deep", "hit")])
+SAID = [("gap", "clear"), ("shallow", "hit"), ("deep", "hit")]
+
+
+@pytest.mark.parametrize("situation, label", SAID)
 def test_pairs_by_size_lie_where_they_are_said_to(situation, label):
     cell = synthetic.cold(80, situation, 6, seed=3)
     assert set(cell.labels) == {label} and len(cell.queries) == 6

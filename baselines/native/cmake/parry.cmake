@@ -23,7 +23,7 @@ function(parry_plugin name isa flags crate)
 endfunction()
 
 if(CARGO_VERSION VERSION_LESS CARGO_NEEDED)
-  set(REMEDY "install Rust's cargo ${CARGO_NEEDED} or later, with rustup; Debian's package is older")
+  set(REMEDY "install Rust's cargo ${CARGO_NEEDED} or later by rustup; Debian's package is older")
   if(CARGO)
     set(REMEDY "${CARGO} is ${CARGO_VERSION}, ${REMEDY}")
   endif()

@@ -25,8 +25,8 @@ WHY = {  # library: why its net Python time is not its native time
               " call, more than its floor holds; the native lane asks the GJK pair detector alone."
               " The casts are the same code in both lanes; their floor holds the cast of two"
               " tetrahedra",
-    "coal": "its floor, a call on tetrahedra, holds part of the test itself, which is most of it on"
-            " cheap pairs",
+    "coal": "its floor, a call on tetrahedra, holds part of the test itself, which is most of it"
+            " on cheap pairs",
     "fcl": "its floor holds part of the test on cheap pairs, and a hit costs more than a miss"
            " (python-fcl builds a list of contacts); where the ratio is below 1 on large bodies the"
            " wheel's FCL is faster than the packaged build of the same version",
@@ -35,8 +35,8 @@ WHY = {  # library: why its net Python time is not its native time
     "ofg": "every prepared query has a workspace of its own, cold at each call, where the native"
            " lane shares one; its floor is nothing but the bounding spheres' test. From Python it"
            " takes the widest instruction set of the machine, and so does the native row",
-    "parry": "its floor, a call on tetrahedra, holds part of the test itself, which is most of it on"
-             " cheap pairs",
+    "parry": "its floor, a call on tetrahedra, holds part of the test itself, which is most of it"
+             " on cheap pairs",
 }
 
 

@@ -42,8 +42,8 @@ def study(
     else:
         with reading(run):
             cells, left = list(certified.cells(Store(run), cases)), certified.left_out(Store(run))
-        asked = (f"Certified cases of the run {run.name}, up to {cases} of a cell. {left} of unions,"
-                 " or of two bodies that turn, are not for the native lane.")
+        asked = (f"Certified cases of the run {run.name}, up to {cases} of a cell. {left} of"
+                 " unions, or of two bodies that turn, are not for the native lane.")
     made = saving.facts(asked=asked, rounds=rounds)
     times, answers, both, noise = _measured(cells, rounds, core, python)
     rows = summary(times, answers)

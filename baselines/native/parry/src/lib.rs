@@ -92,10 +92,15 @@ pub unsafe extern "C" fn parry_manifolds_free(kept: *mut Manifolds) {
 /// Whether a contact of the manifolds, which start from those of the last call, is no distance.
 #[no_mangle]
 pub unsafe extern "C" fn parry_manifolds_overlap(
-    kept: *mut Manifolds, a: *const Box<dyn Shape>, at: &CPose, b: *const Box<dyn Shape>, bt: &CPose,
+    kept: *mut Manifolds,
+    a: *const Box<dyn Shape>,
+    at: &CPose,
+    b: *const Box<dyn Shape>,
+    bt: &CPose,
 ) -> bool {
     let Manifolds { manifolds, workspace } = &mut *kept;
     let apart = pose(at).inv_mul(&pose(bt));
-    let asked = DefaultQueryDispatcher.contact_manifolds(&apart, &**a, &**b, 0.0, manifolds, workspace);
+    let (a, b) = (&**a, &**b);
+    let asked = DefaultQueryDispatcher.contact_manifolds(&apart, a, b, 0.0, manifolds, workspace);
     asked.is_ok() && manifolds.iter().any(|m| m.points.iter().any(|p| p.dist <= 0.0))
 }
