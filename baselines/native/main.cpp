@@ -1,7 +1,7 @@
 // lane CASES FOLDER MODES WARMUP ROUNDS PLUGIN... : time every engine on every case.
 //
 // MODES: names of lane::Mode with commas between them. In a round every contestant (an engine in a
-// mode) is asked all its cases, after a call that is not timed, so that poses are cycled and each
+// mode) is asked all its cases, after calls that are not timed, so that poses are cycled and each
 // finds its own code in the caches; their order is shuffled anew each round. What is timed together
 // is a block of cases. FOLDER gets three CSV files: contestants, answers and times.
 #include <dlfcn.h>
@@ -153,18 +153,38 @@ std::vector<Contestant> contestants_of(const lane::Engines& engines, const lane:
   return all;
 }
 
-void take_turn(Contestant& c, std::size_t block, bool timed) {
+void ask_block(Contestant& c, std::size_t first, std::size_t block, lane::Verdict* to) {
+  if (c.mode == lane::Mode::batch)
+    c.engine->ask_many(first, block, to);
+  else
+    for (std::size_t i = 0; i < block; ++i) to[i] = c.engine->ask(first + i);
+}
+
+// Calls that are not timed: they meet caches full of another contestant. Cold, its code comes in by
+// one of them; else its bodies do, by blocks from the last on, for some milliseconds at most.
+void warm_up(Contestant& c, std::size_t block) {
   c.engine->turn();
   c.engine->forget();
-  c.engine->ask(c.blocks.back() + block - 1);
+  if (c.mode == lane::Mode::cold) {
+    c.engine->ask(c.blocks.back() + block - 1);
+    return;
+  }
+  std::vector<lane::Verdict> nowhere(block);
+  const auto start = Clock::now();
+  for (auto first = c.blocks.rbegin(); first != c.blocks.rend(); ++first) {
+    c.engine->forget();
+    ask_block(c, *first, block, nowhere.data());
+    if (Clock::now() - start > std::chrono::milliseconds(3)) return;
+  }
+}
+
+void take_turn(Contestant& c, std::size_t block, bool timed) {
+  warm_up(c, block);
   lane::Verdict* to = c.verdicts.data();
   for (const std::size_t first : c.blocks) {
     c.engine->forget();
     const auto start = Clock::now();
-    if (c.mode == lane::Mode::batch)
-      c.engine->ask_many(first, block, to);
-    else
-      for (std::size_t i = 0; i < block; ++i) to[i] = c.engine->ask(first + i);
+    ask_block(c, first, block, to);
     const auto end = Clock::now();
     to += block;
     if (timed) c.times.push_back(std::chrono::nanoseconds(end - start).count());
