@@ -2,24 +2,19 @@
 //
 // MODES: names of lane::Mode with commas between them. In a round every contestant (an engine in a
 // mode) is asked all its cases, after calls that are not timed, so that poses are cycled and each
-// finds its own code in the caches; their order is shuffled anew each round. What is timed together
-// is a block of cases. FOLDER gets three CSV files: contestants, answers and times.
+// finds its own code in the caches; their order is shuffled anew each round, and one that takes long
+// for its turn takes part in three. What is timed together is a block of cases. FOLDER gets three
+// CSV files: contestants, answers and times.
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstddef>
-#include <numeric>
-#include <random>
 #include <sstream>
 
-#include "case_file.hpp"
-#include "units.hpp"
+#include "rounds.hpp"
 
 namespace {
 
 using lane::fail;
-using Clock = std::chrono::steady_clock;
 
 // What a call through the interface and two looks at the clock cost: to be subtracted from others.
 struct Floor final : lane::Engine {
@@ -44,15 +39,6 @@ struct Probe final : lane::Engine {
     kept = x;
     return {false};
   }
-};
-
-struct Contestant {
-  lane::Engine* engine;
-  lane::Mode mode;
-  std::vector<std::size_t> blocks;  // first cases of those it answers
-  long long build;                  // nanoseconds, all cases
-  std::vector<lane::Verdict> verdicts;
-  std::vector<long long> times;     // round by round
 };
 
 const char* const names[] = {"cold", "warm", "batch", "coherent"};
@@ -81,123 +67,13 @@ lane::Engines opened(int n, char** plugins) {
   return engines;
 }
 
-// The blocks of which the engine answers every case.
-std::vector<std::size_t> blocks_of(const lane::Engine& engine, const lane::CaseFile& file) {
-  const auto takes = [&](const lane::Case& c) {
-    const bool hulls = file.bodies[c.a].convex && file.bodies[c.b].convex;
-    return engine.answers(c.question) && (hulls || engine.takes_meshes());
-  };
-  std::vector<std::size_t> blocks;
-  for (std::size_t i = 0; i < file.cases.size(); i += file.block) {
-    const auto first = file.cases.begin() + std::ptrdiff_t(i);
-    if (std::all_of(first, first + file.block, takes)) blocks.push_back(i);
-  }
-  return blocks;
-}
-
-// Builds an engine of its cases alone: others may be of bodies that it refuses.
-long long built(lane::Engine& engine, const lane::CaseFile& file,
-                const std::vector<std::size_t>& blocks) {
-  std::vector<lane::Case> cases = file.cases;
-  std::vector<bool> mine(cases.size());
-  for (const std::size_t first : blocks)
-    for (std::size_t i = 0; i < file.block; ++i) mine[first + i] = true;
-  const lane::Case& stand_in = cases[blocks.front()];
-  for (std::size_t i = 0; i < cases.size(); ++i)
-    if (!mine[i]) cases[i] = stand_in;
-  // Bodies that no case of its own names are not for it to build.
-  std::vector<lane::Body> bodies;
-  std::vector<std::uint32_t> place(file.bodies.size(), std::uint32_t(-1));
-  for (auto& c : cases)
-    for (auto* body : {&c.a, &c.b}) {
-      if (place[*body] == std::uint32_t(-1)) {
-        place[*body] = std::uint32_t(bodies.size());
-        bodies.push_back(file.bodies[*body]);
-      }
-      *body = place[*body];
-    }
-  const auto known = file.lengths.find(engine.name.substr(0, engine.name.find(' ')));
-  engine.length = known == file.lengths.end() ? 0 : known->second;
-  const auto start = Clock::now();
-  if (engine.length > 0) {
-    const lane::Units units(bodies, cases, engine.length);
-    engine.build(units.bodies, units.cases);
-  } else {
-    engine.build(bodies, cases);
-  }
-  return std::chrono::nanoseconds(Clock::now() - start).count();
-}
-
-std::vector<Contestant> contestants_of(const lane::Engines& engines, const lane::CaseFile& file,
-                                       const std::vector<lane::Mode>& modes) {
-  std::vector<Contestant> all;
-  for (const auto& engine : engines) {
-    auto blocks = blocks_of(*engine, file);
-    long long build = -1;
-    for (const lane::Mode mode : modes) {
-      if (blocks.empty() || !engine->stands(mode)) continue;
-      if (build < 0) {
-        build = built(*engine, file, blocks);
-        std::erase_if(blocks, [&](std::size_t first) {
-          for (std::size_t i = 0; i < file.block; ++i)
-            if (engine->refuses(first + i)) return true;
-          return false;
-        });
-        if (blocks.empty()) break;
-      }
-      Contestant one{engine.get(), mode, blocks, build, {}, {}};
-      one.verdicts.resize(blocks.size() * file.block);
-      all.push_back(std::move(one));
-    }
-  }
-  return all;
-}
-
-void ask_block(Contestant& c, std::size_t first, std::size_t block, lane::Verdict* to) {
-  if (c.mode == lane::Mode::batch)
-    c.engine->ask_many(first, block, to);
-  else
-    for (std::size_t i = 0; i < block; ++i) to[i] = c.engine->ask(first + i);
-}
-
-// Calls that are not timed: they meet caches full of another contestant. Cold, its code comes in by
-// one of them; else its bodies do, by blocks from the last on, for some milliseconds at most.
-void warm_up(Contestant& c, std::size_t block) {
-  c.engine->turn();
-  c.engine->forget();
-  if (c.mode == lane::Mode::cold) {
-    c.engine->ask(c.blocks.back() + block - 1);
-    return;
-  }
-  std::vector<lane::Verdict> nowhere(block);
-  const auto start = Clock::now();
-  for (auto first = c.blocks.rbegin(); first != c.blocks.rend(); ++first) {
-    c.engine->forget();
-    ask_block(c, *first, block, nowhere.data());
-    if (Clock::now() - start > std::chrono::milliseconds(3)) return;
-  }
-}
-
-void take_turn(Contestant& c, std::size_t block, bool timed) {
-  warm_up(c, block);
-  lane::Verdict* to = c.verdicts.data();
-  for (const std::size_t first : c.blocks) {
-    c.engine->forget();
-    const auto start = Clock::now();
-    ask_block(c, first, block, to);
-    const auto end = Clock::now();
-    to += block;
-    if (timed) c.times.push_back(std::chrono::nanoseconds(end - start).count());
-  }
-}
-
 std::FILE* csv(const std::string& folder, const char* name) {
   std::FILE* out = std::fopen((folder + "/" + name + ".csv").c_str(), "w");
   if (!out) fail(folder + "/" + name + ".csv cannot be written.");
   return out;
 }
 
-void write(const std::string& folder, const std::vector<Contestant>& all, std::size_t block,
+void write(const std::string& folder, const std::vector<lane::Contestant>& all, std::size_t block,
            int rounds) {
   std::FILE *who = csv(folder, "contestants"), *said = csv(folder, "answers"),
             *took = csv(folder, "times");
@@ -206,7 +82,7 @@ void write(const std::string& folder, const std::vector<Contestant>& all, std::s
   std::fprintf(took, "id,block,queries");
   for (int r = 0; r < rounds; ++r) std::fprintf(took, ",round%d", r);
   for (std::size_t id = 0; id < all.size(); ++id) {
-    const Contestant& c = all[id];
+    const lane::Contestant& c = all[id];
     std::fprintf(who, "%zu,\"%s\",%s,\"%s\",%s,%lld\n", id, c.engine->name.c_str(),
                  c.engine->isa.c_str(), c.engine->build_of.c_str(), names[int(c.mode)], c.build);
     for (std::size_t i = 0; i < c.verdicts.size(); ++i)
@@ -214,8 +90,10 @@ void write(const std::string& folder, const std::vector<Contestant>& all, std::s
                    int(c.verdicts[i].hit), c.verdicts[i].time);
     for (std::size_t i = 0; i < c.blocks.size(); ++i) {
       std::fprintf(took, "\n%zu,%zu,%zu", id, c.blocks[i], block);
-      for (int r = 0; r < rounds; ++r)
-        std::fprintf(took, ",%lld", c.times[std::size_t(r) * c.blocks.size() + i]);
+      for (int r = 0; r < rounds; ++r) {
+        const long long ns = c.times[std::size_t(r) * c.blocks.size() + i];
+        ns < 0 ? std::fprintf(took, ",") : std::fprintf(took, ",%lld", ns);
+      }
     }
   }
   std::fprintf(took, "\n");
@@ -229,13 +107,7 @@ int main(int argc, char** argv) {
   const lane::CaseFile file = lane::read_case_file(argv[1]);
   const int warmup = std::atoi(argv[4]), rounds = std::atoi(argv[5]);
   const lane::Engines engines = opened(argc - 6, argv + 6);
-  std::vector<Contestant> all = contestants_of(engines, file, modes_of(argv[3]));
-  std::vector<std::size_t> order(all.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::mt19937 random(0);
-  for (int round = 0; round < warmup + rounds; ++round) {
-    std::shuffle(order.begin(), order.end(), random);
-    for (const std::size_t turn : order) take_turn(all[turn], file.block, round >= warmup);
-  }
+  std::vector<lane::Contestant> all = lane::contestants_of(engines, file, modes_of(argv[3]));
+  lane::take_rounds(all, file.block, warmup, rounds);
   write(argv[2], all, file.block, rounds);
 }

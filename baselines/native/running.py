@@ -27,7 +27,8 @@ class Taken:
     contestants: index id; engine (named as the method of the Python lane that asks the same, where
     there is one), isa, build (who built it), mode, build_ns (of all bodies and cases).
     answers: id, case (index of the query), hit, time.
-    times: id, block (its first case), queries in it, round0, round1, ...: nanoseconds, gross.
+    times: id, block (its first case), queries in it, round0, round1, ...: nanoseconds, gross; NaN
+    but for three rounds where a contestant takes more than half a second for its turn.
     """
 
     contestants: pd.DataFrame

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from experiments import manifest
@@ -15,20 +16,27 @@ from .summary import COUNTS, RATIO
 
 
 def save(folder: Path, rows: pd.DataFrame, page: str, made: dict) -> None:
-    """Write all three. rows: as `summary` gives them."""
+    """Write all three. rows: as `small` gives them, from which the page was made."""
     store = Store(folder)
-    store.write(small(rows), "rows.parquet")
+    store.write(rows, "rows.parquet")
     store.write_text(page, "native.md")
     store.write_text(json.dumps(made, indent=1) + "\n", "made.json")
 
 
 def small(rows: pd.DataFrame) -> pd.DataFrame:
-    """The same with each word stored once, and times to a tenth of a nanosecond."""
+    """The same with each word stored once; times to four digits, quotients to three."""
     words = {name: rows[name].astype("category") for name in ("class", "over", *CELL, *CONTESTANT)}
-    numbers = {name: rows[name].round(1 if name == "ns" else 4).astype("float32")
-               for name in ("ns", *RATIO)}
+    digits = {"ns": 4, **dict.fromkeys(RATIO, 3)}
+    numbers = {name: rounded(rows[name], n).astype("float32") for name, n in digits.items()}
     counts = {name: rows[name].astype("Int32") for name in ("blocks", *COUNTS)}
-    return rows.assign(**words, **numbers, **counts)
+    return rows.drop(columns="build_ns").assign(**words, **numbers, **counts)
+
+
+def rounded(values: pd.Series, digits: int) -> pd.Series:
+    """To so many significant digits."""
+    sizes = np.floor(np.log10(values.abs().where(values != 0, 1)))
+    unit = 10.0 ** (sizes - digits + 1)
+    return (values / unit).round() * unit
 
 
 def facts(**asked) -> dict:
@@ -50,5 +58,5 @@ def for_report(rows: pd.DataFrame, labels: dict[str, str]) -> pd.DataFrame:
     chosen = chosen[chosen.engine.isin(labels) & (chosen.bodies == "convex")]
     return pd.DataFrame({
         **{name: chosen[name] for name in ("question", "situation", "faces")},
-        "method": chosen.engine.map(labels), "native": chosen.ns.round(1),
+        "method": chosen.engine.map(labels), "native": chosen.ns.astype(float).round(1),
     })

@@ -46,7 +46,7 @@ def study(
                  " unions, or of two bodies that turn, are not for the native lane.")
     made = saving.facts(asked=asked, rounds=rounds)
     times, answers, both, noise = _measured(cells, rounds, core, python)
-    rows = summary(times, answers)
+    rows = saving.small(summary(times, answers))
     facts = [asked, f"{rounds} rounds.", *built, _noise(noise)]
     facts += _against(Store(run), rows, answers) if run else []
     facts = [line for fact in facts for line in (fact, "")]
