@@ -2,9 +2,9 @@
 //
 // MODES: names of lane::Mode with commas between them. In a round every contestant (an engine in a
 // mode) is asked all its cases, after calls that are not timed, so that poses are cycled and each
-// finds its own code in the caches; their order is shuffled anew each round, and one that takes long
-// for its turn takes part in three. What is timed together is a block of cases. FOLDER gets three
-// CSV files: contestants, answers and times.
+// finds its own code in the caches; their order is shuffled anew each round, and one that takes
+// long for its turn takes part in three. What is timed together is a block of cases. FOLDER gets
+// three CSV files: contestants, answers and times.
 #include <dlfcn.h>
 
 #include <algorithm>

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from baselines import native
@@ -84,6 +84,7 @@ def test_a_batch_is_put_over_single_calls_of_the_same_poses():
     assert found.set_index("mode").ratio.to_dict() == {"warm": 1.0, "batch": 0.25, "cold": 1.0}
 
 
+@settings(deadline=None, max_examples=30)
 @given(st.lists(st.floats(0.1, 10), min_size=1, max_size=12))
 def test_an_interval_holds_its_median(values):
     found = interval(pd.Series(values))

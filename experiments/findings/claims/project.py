@@ -40,9 +40,9 @@ COMPARED = {"generic": "SSE2 and generic builds", V3: f"AVX2 and {V3} builds"}
     " interval under 1 (in part: in some)",
     "native/native.md faces/tables/faces-ratio.md",
     "The libraries in C++, each pair with bodies of its own: the quotient pair by pair, with the"
-    " engine that takes least in the cell, whatever it answers. OFG with SSE2 beside generic builds,"
-    f" with AVX2 beside builds for {V3}, where there is one. What k = 8 misses of such bodies stands"
-    " above.",
+    " engine that takes least in the cell, whatever it answers. OFG with SSE2 stands beside generic"
+    f" builds, with AVX2 beside builds for {V3}, where there is one. What k = 8 misses of such"
+    " bodies stands above.",
 )
 def engines_speed(runs: Runs):
     found = rows(runs.file("native/rows.parquet"), engine=OURS, mode="cold", bodies="hull")

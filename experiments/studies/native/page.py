@@ -32,10 +32,11 @@ def page(rows: pd.DataFrame, facts: list[str], parts: bool = True) -> str:
 
 LEGEND = [
     "Nanoseconds per query: medians over rounds (three, where a round takes a contestant half a"
-    " second), then over blocks of queries, less what the call and the clock cost. Of each library the configuration that took least stands in the cell,"
-    " whatever it answers; in brackets, wherever there are any, its wrong answers of the certified"
-    f" cases. Quotient: {OURS} over the fastest of all libraries, in batch cells {SCREENED}; block"
-    " by block, with its 95 % bootstrap interval.",
+    " second), then over blocks of queries, less what the call and the clock cost. Of each library"
+    " the configuration that took least stands in the cell, whatever it answers; in brackets,"
+    " wherever there are any, its wrong answers of the certified cases. Quotient:"
+    f" {OURS} over the fastest of all libraries, in batch cells {SCREENED}; block by block, with"
+    " its 95 % bootstrap interval.",
     "",
     "cold: every pair once, with bodies of its own. warm: many poses of one pair, call by call."
     " batch: the same in one call; no engine has such a call, so their single calls stand there"
