@@ -113,10 +113,9 @@ def native(runs: Runs, of: Callable) -> dict:
                              sort=False)
     over = wide / wide.loc[OURS]
     told = of(found.assign(method=found.engine.astype(str)))
-    return {
-        m: ", ".join(f"{name} {faces} faces {v:.2f}" for (name, faces), v in over.loc[m].items())
-        for m in told if m != OURS
-    }
+    told = [m for m in told if m != OURS and "screen=" not in m and "precision=" not in m]
+    form = "{} {} faces {:.2f}".format
+    return {m: ", ".join(form(*at, v) for at, v in over.loc[m].items()) for m in told}
 
 
 def python(runs: Runs, of: Callable) -> dict:
