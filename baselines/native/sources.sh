@@ -39,9 +39,13 @@ flags="-O3 -DNDEBUG -march=x86-64-v3"
 build() {  # NAME OPTION...
   name=$1
   shift
-  cmake -S "$(folder "$name")" -B "$to/v3-$name" $common "$@" -DCMAKE_C_FLAGS="$flags -w" \
-    -DCMAKE_CXX_FLAGS="$flags -w" -Wno-dev -Wno-deprecated --no-warn-unused-cli >/dev/null
-  cmake --build "$to/v3-$name" --target install -j "$jobs" >/dev/null
+  log="$to/v3-$name.log"
+  { cmake -S "$(folder "$name")" -B "$to/v3-$name" $common "$@" -DCMAKE_C_FLAGS="$flags" \
+    -DCMAKE_CXX_FLAGS="$flags" && cmake --build "$to/v3-$name" --target install -j "$jobs"
+  } >"$log" 2>&1 || {
+    echo "$name does not build; see $log" >&2
+    exit 1
+  }
   echo "$name stands in $to/v3"
 }
 build libccd -DENABLE_DOUBLE_PRECISION=ON

@@ -2,9 +2,11 @@
 
 import fcntl
 import os
+import re
 import shutil
 import struct
 import subprocess
+import sysconfig
 from dataclasses import replace
 
 import numpy as np
@@ -158,3 +160,17 @@ def test_the_lane_is_asked_about_relative_motion(tmp_path):
     turning = replace(alone, question="motion", motion=turn, motion_b=turn)
     with pytest.raises(Unsupported, match="both bodies turn"):
         native.write(tmp_path / "none", [turning])
+
+
+def test_an_old_cargo_is_named_with_the_remedy(tmp_path):
+    """Debian's cargo is too old for parry's crates: the build failed without a word of that."""
+    place = os.pathsep.join([sysconfig.get_path("scripts"), os.environ.get("PATH", "")])
+    if not (COMPILER and (cmake := shutil.which("cmake", path=place))):
+        pytest.skip("no cmake or no C++ compiler")
+    cargo = tmp_path / "cargo"
+    cargo.write_text("#!/bin/sh\necho 'cargo 1.65.0 (4bc8f24d3 2022-10-20)'\n")
+    cargo.chmod(0o755)
+    words = [cmake, "-S", native.SOURCE, "-B", tmp_path / "build", f"-DCARGO={cargo}"]
+    subprocess.run(words, check=True, capture_output=True)
+    missing = (tmp_path / "build" / "missing.txt").read_text()
+    assert re.search(r"^parry: .*cargo is 1\.65\.0, install .* 1\.89 or later", missing, re.M)

@@ -7,8 +7,10 @@ import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from typer.testing import CliRunner
 
 from baselines import native
+from experiments.cli import app
 from experiments.report import lanes
 from experiments.store import Store, StoreError
 from experiments.studies.native import certified, saving, synthetic, twins
@@ -177,6 +179,12 @@ def test_a_missing_engine_is_an_error_where_it_is_required(monkeypatch):
     native.building.demand([])
     with pytest.raises(native.NativeError, match="OFG_NATIVE=required.*fcl: install it"):
         native.building.demand(["fcl: install it"])
+
+
+def test_the_command_says_in_a_line_what_it_lacks(monkeypatch):
+    monkeypatch.setattr(native.building.shutil, "which", lambda *_, **__: None)
+    done = CliRunner().invoke(app, ["native", "--build"])
+    assert done.exit_code == 1 and "pip install cmake" in done.output
 
 
 def test_the_report_shows_what_the_study_found_of_a_run(tmp_path):

@@ -1,6 +1,6 @@
 # FCL with libccd, and Bullet, built for x86-64-v3 of their sources. sources.sh does that apart, as
 # it takes minutes.
-set(V3_SOURCES "run baselines/native/sources.sh (it needs deb-src entries for apt, and dpkg-dev)")
+set(V3_SOURCES "run: make native-v3 (on Debian; it needs dpkg-dev)")
 
 if(EXISTS ${V3_PREFIX}/lib/libfcl.a AND Eigen3_FOUND)
   file(STRINGS ${V3_PREFIX}/include/fcl/config.h FCL_V3_VERSION REGEX "define FCL_VERSION ")
