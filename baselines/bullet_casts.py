@@ -1,8 +1,8 @@
 """Bullet's continuous convex casts, which only its C++ library offers, through a native plugin.
 
 btSubsimplexConvexCast and btGjkConvexCast support translations, btContinuousConvexCollision also
-rotations. A union is cast in pairs of pieces, and the earliest hit counts. `make native` builds the
-plugin if it finds Bullet's headers.
+rotations. A union is cast in pairs of pieces, and the earliest hit counts. `ofg-bench native
+--build` builds the plugin if it finds Bullet's headers.
 
 By their documentation bodies must not overlap at the start; btSubSimplexConvexCast.h advises
 testing that with btGjkPairDetector, which the best effort does.

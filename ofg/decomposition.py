@@ -21,10 +21,11 @@ from .body import Body, BodyError
 SECONDS = 300.0  #: time limit of CoACD; most bodies need less than ten
 SAMPLES = 400  #: points of the body at which it is compared with the pieces
 COVERED = 0.9  #: share of these points that must lie in a piece; half of it for each shell
+#: allowed range of the summed volume of the pieces, as a share of the body's volume
 FULL = (
     0.85,
     3.0,
-)  #: allowed range of the summed volume of the pieces, as a share of the body's volume
+)
 
 
 def decompose(

@@ -11,13 +11,14 @@ from . import exact, surface
 
 # Directions of rays: small integers to which few edges are parallel.
 RAYS = ((3, 5, 7), (-7, 4, 3), (5, -8, 6), (-2, -7, 9), (11, 3, -8), (1, 12, -5), (-9, -4, -13))
+#: barycentric weights of points of a face
 WEIGHTS = (
     (1, 1, 1),
     (2, 1, 1),
     (1, 3, 2),
     (5, 2, 3),
     (2, 3, 7),
-)  #: barycentric weights of points of a face
+)
 Vector = Sequence[Fraction]  #: of three
 MOST_CUTS = 4000  #: limit on faces cut by others when a volume is computed
 

@@ -25,10 +25,11 @@ from .piece_truth import FILES
 from .processes.pool import Loss, Task, mixed, run
 from .progress import stage
 
+# estimates for one body and for one case, used only for progress
 DECOMPOSE_SECONDS, LABEL_SECONDS = (
     4.0,
     0.2,
-)  # estimates for one body and for one case, used only for progress
+)
 
 
 @dataclass(frozen=True)

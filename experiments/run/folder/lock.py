@@ -51,9 +51,8 @@ class Lock:
         return self
 
     def __exit__(self, *_) -> None:
-        self.path.unlink(
-            missing_ok=True
-        )  # before the lock is released, so that no other process's file is removed
+        # before the lock is released, so that no other process's file is removed
+        self.path.unlink(missing_ok=True)
         self._file.close()
 
     def _take(self) -> None:

@@ -10,9 +10,8 @@ from math import inf, isfinite
 from flint import arb, fmpq
 
 BITS = 256
-_RATIONAL = re.compile(
-    r"(-?[0-9]{1,4300})(?:/([0-9]{1,4300}))?"
-)  #: the integers that int() accepts
+#: the integers that int() accepts
+_RATIONAL = re.compile(r"(-?[0-9]{1,4300})(?:/([0-9]{1,4300}))?")
 
 
 def rational(x) -> fmpq:
