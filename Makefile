@@ -12,7 +12,8 @@ SOURCES = $(shell git ls-files '*.[hc]pp')
 PAGE := experiments/publish/report/page
 REUSE := REUSE_ENCODING_MODULE=charset_normalizer $(BIN)/reuse
 
-.PHONY: help env build quick test lint style types layers lines format licences lock stub engines browser native \
+.PHONY: help env build quick test lint style types layers lines format licences \
+	lock stub engines browser native \
 	bench-ofg bench-truth crosscheck attack drill fuzz fuzz-boundary reproduce clean
 help:
 	@echo "make quick        set up, build, run the main job in a few minutes, print its tables"

@@ -47,7 +47,7 @@ class Bullet(Discrete):
     threshold = 0.0  #: a reported distance below this is an overlap
 
     def build(self, query: Query):
-        bullet, client = _client()
+        bullet, client = connection()
         shapes_a, shapes_b = (_hulls(bullet, client, body) for body in (query.a, query.b))
         pairs = list(product(shapes_a, shapes_b))
         threshold = self.threshold
@@ -113,7 +113,7 @@ class BulletCoacdSubsteps(Substeps, BulletCoacd):
 
 
 @cache
-def _client():
+def connection():
     try:
         with _quiet():
             import pybullet

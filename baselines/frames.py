@@ -65,7 +65,7 @@ def shifted(body: Body, origin: tuple[float, float, float]) -> Body:
     Rounded to double, so a vertex is off by up to 1e-16 of |origin|.
     """
     pieces = tuple(shifted(p, origin) for p in body.pieces) if body.kind == "union" else ()
-    return Body._of(body.kind, body.vertices - origin, body.faces, pieces, body.name)
+    return Body.unchecked(body.kind, body.vertices - origin, body.faces, pieces, body.name)
 
 
 def seen_from(pose_b: Pose, pose_a: Pose, rest_b: Pose) -> Pose:

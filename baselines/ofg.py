@@ -65,16 +65,16 @@ class Article(Method):
 
     def __init__(self, **parameters):
         super().__init__(**parameters)
-        _check(self.name, self._options)
+        _check(self.name, self.options)
         self.precision = "single" if self.parameters["precision"] == "float" else "double"
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
         query = replace(query, a=_pieces(query.a), b=_pieces(query.b))
-        ask = ofg.prepare(query, algorithm=ARTICLE, **self._options())
+        ask = ofg.prepare(query, algorithm=ARTICLE, **self.options())
         return lambda: Verdict(*ask())
 
-    def _options(self) -> dict:
+    def options(self) -> dict:
         return {**self.parameters, "k": _faces(self.parameters["k"])}
 
 
@@ -127,10 +127,10 @@ class OpposingFaceGeometry(Method):
 
     def __init__(self, **parameters):
         super().__init__(**parameters)
-        _check(self.name, self._options)
+        _check(self.name, self.options)
         repaired = {
             name
-            for name, value in self._options().items()
+            for name, value in self.options().items()
             if name in _REPAIRED and value != type(self).parameters[name]
         }
         self.solid = "containment" in repaired
@@ -142,7 +142,7 @@ class OpposingFaceGeometry(Method):
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
-        options = self._options()
+        options = self.options()
         if self.decomposes:
             query = replace(query, a=_pieces(query.a), b=_pieces(query.b))
         ask = ofg.prepare(query, **options)
@@ -151,10 +151,10 @@ class OpposingFaceGeometry(Method):
     @property
     def decomposes(self) -> bool:
         """Whether meshes are decomposed before they are asked."""
-        options = self._options()
+        options = self.options()
         return options.get("concave") != "undivided" and not options.get("adaptive_k")
 
-    def _options(self) -> dict:
+    def options(self) -> dict:
         """What the core is asked with: the repairs, overruled by what is given by name. ValueError
         for an unknown repair.
         """

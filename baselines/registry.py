@@ -15,6 +15,7 @@ from types import ModuleType
 
 from . import declaration
 from .contract import Method
+from .label import parse
 from .native import library
 
 
@@ -96,16 +97,13 @@ def make(spec: str) -> list[Method]:
 
     UnknownMethod with the closest names; MissingEngine if the method's engine is not installed.
     """
-    name, *words = spec.split() or [""]
+    try:
+        name, chosen = parse(spec)
+    except ValueError as error:
+        raise UnknownMethod(str(error)) from None
     cls = _find(name)
     choices = {}
-    for word in words:
-        key, equals, values = word.partition("=")
-        if not equals or not values:
-            raise UnknownMethod(
-                f"Method specification '{spec}': '{word}' is not of the form parameter=value or"
-                " parameter=value,value."
-            )
+    for key, values in chosen.items():
         if key not in cls.parameters:
             known = (
                 ", ".join(f"{k} (default {v})" for k, v in cls.parameters.items()) or "no parameter"

@@ -90,4 +90,4 @@ def scaled(body: Body, unit: float) -> Body:
     if unit == 1:
         return body
     pieces = () if body.kind != "union" else tuple(scaled(piece, unit) for piece in body.pieces)
-    return Body._of(body.kind, unit * body.vertices, body.faces, pieces, body.name)
+    return Body.unchecked(body.kind, unit * body.vertices, body.faces, pieces, body.name)

@@ -20,10 +20,10 @@ from ofg import Motion, Pose, Query
 
 from .cases import shapes
 from .cases.case import Case
-from .run.config import TimingChoice
-from .cases.scenario import snap
 from .cases.placement import any_direction, touching
-from .run.timing import Bin, COLUMNS, FLOOR, time_bin
+from .cases.scenario import snap
+from .run.config import TimingChoice
+from .run.timing import COLUMNS, FLOOR, Bin, time_bin
 
 FACES = (12, 80, 320, 1280)
 SITUATIONS = ("apart", "overlapping", "flight")

@@ -53,7 +53,9 @@ class Body(Frozen):
             ) from error
         used, faces = np.unique(_wound_alike(hull.simplices, hull.neighbors), return_inverse=True)
         v, faces = v[used], faces.reshape(-1, 3)
-        return cls._of("convex", v, faces if _volume(v, faces) > 0 else faces[:, ::-1], (), name)
+        return cls.unchecked(
+            "convex", v, faces if _volume(v, faces) > 0 else faces[:, ::-1], (), name
+        )
 
     @classmethod
     def mesh(cls, vertices: ArrayLike, faces: ArrayLike, name: str = "body") -> Body:
@@ -66,7 +68,9 @@ class Body(Frozen):
         """
         who = f"Body '{name}'"
         v = solid.points(vertices, who)
-        return cls._of("mesh", *solid.closed(v, solid.triangles(faces, len(v), who), who), (), name)
+        return cls.unchecked(
+            "mesh", *solid.closed(v, solid.triangles(faces, len(v), who), who), (), name
+        )
 
     @classmethod
     def union(cls, pieces: Iterable[Body], name: str = "body") -> Body:
@@ -87,7 +91,9 @@ class Body(Frozen):
             )
         first = np.cumsum([0] + [len(p.vertices) for p in pieces])
         faces = np.concatenate([p.faces + offset for p, offset in zip(pieces, first)])
-        return cls._of("union", np.concatenate([p.vertices for p in pieces]), faces, pieces, name)
+        return cls.unchecked(
+            "union", np.concatenate([p.vertices for p in pieces]), faces, pieces, name
+        )
 
     @classmethod
     def from_trimesh(
@@ -144,7 +150,7 @@ class Body(Frozen):
             solid.require_balance(*surface.merged(v, f), who)
             return cls._split(parts, name, who)
         v, f = solid.closed(v, f, who)
-        return cls._proved_convex(v, f, name, who) or cls._of("mesh", v, f, (), name)
+        return cls._proved_convex(v, f, name, who) or cls.unchecked("mesh", v, f, (), name)
 
     @classmethod
     def _proved_convex(cls, v: np.ndarray, f: np.ndarray, name: str, who: str) -> Body | None:
@@ -186,7 +192,7 @@ class Body(Frozen):
         return cls.union(pieces, name)
 
     @classmethod
-    def _of(
+    def unchecked(
         cls,
         kind: str,
         vertices: np.ndarray,
@@ -194,6 +200,11 @@ class Body(Frozen):
         pieces: tuple[Body, ...],
         name: str,
     ) -> Body:
+        """A body of arrays that were checked before: a copy with other numbers, or read back.
+
+        kind: "convex", "union" or "mesh". vertices: (n, 3); faces: (m, 3), outward; pieces: of a
+        union, convex. Nothing is checked but the name.
+        """
         vertices, faces = (
             np.array(vertices, np.float64, order="C"),
             np.array(faces, np.int32, order="C"),

@@ -39,10 +39,10 @@ def body(
     f = solid.triangles(_threes(faces, "faces", who), len(v), who)
     if kind == "mesh":
         _check_mesh(v, f, who)
-        return Body._of("mesh", v, f, (), name)
+        return Body.unchecked("mesh", v, f, (), name)
     if kind == "convex":
         _check_convex(v, f, who)
-        return Body._of("convex", v, f, (), name)
+        return Body.unchecked("convex", v, f, (), name)
     v0, f0 = (
         _ends(piece_vertices, len(v), "vertices", who),
         _ends(piece_faces, len(f), "faces", who),
@@ -57,8 +57,8 @@ def body(
         own = f[f0[i] : f0[i + 1]] - v0[i]
         solid.points(at, of)
         _check_convex(at, solid.triangles(own, len(at), of), of)
-        pieces.append(Body._of("convex", at, own, (), f"{name}[{i}]"))
-    return Body._of("union", v, f, tuple(pieces), name)
+        pieces.append(Body.unchecked("convex", at, own, (), f"{name}[{i}]"))
+    return Body.unchecked("union", v, f, tuple(pieces), name)
 
 
 def _threes(values: ArrayLike, what: str, who: str) -> np.ndarray:

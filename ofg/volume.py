@@ -285,9 +285,9 @@ def _weight(
         on = [(i, 1 if _plane(v[f[i]])[1] @ n > 0 else -1) for i in level if _holds(v[f[i]], p)]
         if any(i < face for i, _ in on):
             return 0  # the first of faces on one another counts for all
-        normal = winding._normal([exact.rational(c) for c in v[f[face]]])
+        normal = winding.normal_of([exact.rational(c) for c in v[f[face]]])
         try:
-            front, grazed = winding._ahead(v, f, exact.rational(p), normal, [face, *level])
+            front, grazed = winding.crossed_ahead(v, f, exact.rational(p), normal, [face, *level])
         except winding.Unclear:
             continue
         back = front + 1 + sum(way for _, way in on)

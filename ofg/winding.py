@@ -32,7 +32,7 @@ def beside(v: np.ndarray, f: np.ndarray, face: int) -> tuple[int, int, bool]:
         all_ = sum(weights)
         p = [sum((w * c[i] for w, c in zip(weights, corners)), Fraction()) / all_ for i in range(3)]
         try:
-            ahead, on = _ahead(v, f, p, _normal(corners), [face])
+            ahead, on = crossed_ahead(v, f, p, normal_of(corners), [face])
         except Unclear:
             continue
         return ahead, ahead + 1 + sum(way for _, way in on), all(i > face for i, _ in on)
@@ -45,14 +45,14 @@ def at(v: np.ndarray, f: np.ndarray, points: np.ndarray) -> np.ndarray:
     low, high = v.min(axis=0), v.max(axis=0)
     for i in np.flatnonzero(((points > low) & (points < high)).all(axis=1)):
         try:
-            ahead, on = _ahead(v, f, exact.rational(points[i]))
+            ahead, on = crossed_ahead(v, f, exact.rational(points[i]))
         except Unclear:
             continue
         out[i] = 0 if on else ahead
     return out
 
 
-def _ahead(
+def crossed_ahead(
     v: np.ndarray,
     f: np.ndarray,
     p: Vector,
@@ -126,7 +126,8 @@ def _crossed(
     return ((1 if up else -1) if up == (height > 0) else 0), 0
 
 
-def _normal(corners: Sequence[Vector]) -> list[Fraction]:
+def normal_of(corners: Sequence[Vector]) -> list[Fraction]:
+    """The exact normal of a triangle, of any length. corners: three points of three Fractions."""
     a, b, c = corners
     return _cross([q - p for p, q in zip(a, b)], [q - p for p, q in zip(a, c)])
 

@@ -28,6 +28,6 @@ def test_no_line_is_too_wide():
     wide = []
     for path in sources():
         for number, line in enumerate(path.read_text().splitlines(), 1):
-            if len(line) > WIDEST:
+            if len(line.partition("  # noqa")[0]) > WIDEST:  # as ruff counts
                 wide.append(f"{path.relative_to(ROOT)}:{number}")
     assert wide == [], f"{len(wide)} lines of more than {WIDEST} columns: {wide[:20]}"

@@ -12,7 +12,7 @@ from experiments.run.folder.rows import filled
 from experiments.run.folder.store import Store
 from experiments.run.progress import say
 
-from . import metrics
+from . import costs, metrics, outcome
 
 # of the step: reported times of impact that differ by less are the same, so that libm's last bit is
 # no change
@@ -103,7 +103,7 @@ def compare(first: Store, second: Store) -> Difference:
     """Raises StoreError for a run that is not finished."""
     pieces = _judged_by_pieces(first, second)
     a, b = (
-        metrics.outcomes(store, pieces, nested=False).drop(columns=list(INPUT), errors="ignore")
+        outcome.outcomes(store, pieces, nested=False).drop(columns=list(INPUT), errors="ignore")
         for store in (first, second)
     )
     remade = _remade(first, second)
@@ -296,10 +296,10 @@ def _times(first: Store, second: Store) -> pd.DataFrame:
     columns = ["question", "method", "ratio", "low", "high", "pairs"]
     if not (first.has("timings.parquet") and second.has("timings.parquet")):
         return pd.DataFrame(columns=columns)
-    both = metrics.case_costs(first).merge(
-        metrics.case_costs(second), on=["question", "method", "case"], suffixes=("_a", "_b")
+    both = costs.case_costs(first).merge(
+        costs.case_costs(second), on=["question", "method", "case"], suffixes=("_a", "_b")
     )
     both = both.assign(ratio=both.ns_b / both.ns_a)
-    return metrics.medians(both, "ratio", ["question", "method"]).rename(
+    return costs.medians(both, "ratio", ["question", "method"]).rename(
         columns={"median": "ratio", "cases": "pairs"}
     )[columns]

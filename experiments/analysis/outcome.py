@@ -16,18 +16,6 @@ from experiments.run.timing import situation_of
 
 from . import nesting
 
-#: what an answer can be; one that is not "ok" has its status as its outcome
-OUTCOMES = (
-    "right",
-    "miss",
-    "false alarm",
-    "contained",
-    "touching",
-    "no label",
-    "unsupported",
-    "error",
-    "timeout",
-)
 JUDGED = ("right", "miss", "false alarm")  # of which rates are made
 FILE = "outcomes.parquet"
 KEPT = (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from baselines import registry
-from experiments.analysis.tables import tables
+from experiments.analysis import tables
 from experiments.cases import families
 from experiments.run.config import ConfigError, RunConfig, ScenarioChoice, closest, load_files
 from experiments.studies.stepping import experiment as stepping

@@ -14,9 +14,8 @@ from pathlib import Path
 import pandas as pd
 
 from baselines import registry
-from experiments.analysis import outcome
+from experiments.analysis import outcome, tables
 from experiments.analysis.plots import curves, figures
-from experiments.analysis.tables import tables
 from experiments.cases import families
 from experiments.publish.report import report as html_report
 from experiments.run import answering, declared, decomposing, labelling, ownfile, progress, timing

@@ -93,12 +93,12 @@ def _task(store: Store, config: RunConfig, method, chunk: list[Case], name, told
         store.write(frame, name)
 
     def lost(case, loss):
-        return _row(case, method.label, loss.status, detail=loss.detail)
+        return row(case, method.label, loss.status, detail=loss.detail)
 
-    return Task(_open, (method.label, config), chunk, done, lost)
+    return Task(asker, (method.label, config), chunk, done, lost)
 
 
-def _open(argument: tuple[str, RunConfig]):
+def asker(argument: tuple[str, RunConfig]):
     spec, config = argument
     try:
         (method,) = registry.make(spec)
@@ -107,9 +107,9 @@ def _open(argument: tuple[str, RunConfig]):
         reason = words.text_of(error)
     except BaseException as error:  # its constructor is the method's too
         reason = words.of_error(error)
-        return lambda case: _row(case, spec, "error", detail=reason)
+        return lambda case: row(case, spec, "error", detail=reason)
     if reason:
-        return lambda case: _row(case, spec, "unsupported", detail=reason)
+        return lambda case: row(case, spec, "unsupported", detail=reason)
     return lambda case: answer(method, case, config, spec)
 
 
@@ -130,12 +130,12 @@ def answer(method, case: Case, config: RunConfig, label: str | None = None) -> d
         pace = {"build_s": built - start, "query_s": perf_counter() - built}
         verdict = _checked(said)
     except (Unsupported, MissingEngine) as refusal:
-        return _row(case, label, "unsupported", detail=words.text_of(refusal))
+        return row(case, label, "unsupported", detail=words.text_of(refusal))
     except _Unclear as unclear:
-        return _row(case, label, "error", detail=str(unclear))
+        return row(case, label, "error", detail=str(unclear))
     except BaseException as error:  # SystemExit, and the panics of pyo3, are none of Exception
-        return _row(case, label, "error", detail=words.of_error(error))
-    return {**_row(case, label, "ok", verdict.hit, verdict.time), **pace}
+        return row(case, label, "error", detail=words.of_error(error))
+    return {**row(case, label, "ok", verdict.hit, verdict.time), **pace}
 
 
 class _Unclear(Exception):
@@ -149,7 +149,7 @@ def _checked(said) -> Verdict:
         raise _Unclear(words.text_of(error)) from error
 
 
-def _row(case: Case, method: str, status: str, hit=None, time=math.nan, detail="") -> dict:
+def row(case: Case, method: str, status: str, hit=None, time=math.nan, detail="") -> dict:
     return {
         "case": case.id,
         "method": method,

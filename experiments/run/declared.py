@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from baselines import registry
 from baselines.contract import Method, Unsupported
+from baselines.label import name_of
 from baselines.tolerance import NONE, Tolerance
 from experiments.cases import families
 from experiments.cases.scenario import Scenario
@@ -70,7 +71,7 @@ def of(config: RunConfig) -> dict:
     """What a run is to record of its own methods and scenarios, which are loaded already; {} where
     it has none.
     """
-    classes = {spec.split()[0]: registry.methods()[spec.split()[0]] for spec in config.asked}
+    classes = {name: registry.methods()[name] for name in map(name_of, config.asked)}
     own = {
         name: cls for name, cls in classes.items() if not cls.__module__.startswith("baselines.")
     }
@@ -147,7 +148,7 @@ def _notices(config: RunConfig, known) -> list[str]:
         f"The run names Python files of its own ({files}); they are not run. --trust runs them."
     ]
     unknown = dict.fromkeys(
-        spec.split()[0] for spec in config.asked if spec.split() and spec.split()[0] not in known
+        name for name in map(name_of, config.asked) if name and name not in known
     )
     said += [
         f"Method '{name}' is not known here; its declaration is unknown (its tolerance is taken as"

@@ -15,6 +15,7 @@ import numpy as np
 import pandas as pd
 
 from baselines import registry
+from baselines.label import name_of
 from experiments.analysis.compare import SAME_TIME
 from experiments.run import answering
 from experiments.run.config import load_files
@@ -71,7 +72,7 @@ def _asked(config, cases, workers, own, found: Findings) -> list[dict]:
 
             chunks = [cases[i : i + answering.CHUNK] for i in range(0, len(cases), answering.CHUNK)]
             tasks += [
-                Task(answering._open, (m.label, config), c, rows.extend, lost) for c in chunks
+                Task(answering.asker, (m.label, config), c, rows.extend, lost) for c in chunks
             ]
     total = sum(len(task.items) for task in tasks)
     seconds = config.build_seconds + config.query_seconds
@@ -93,7 +94,7 @@ def _compared(rows, recorded: pd.DataFrame, found: Findings) -> None:
         found.asked += 1
         if _said(then.status, then.hit, then.time) == _said(row["status"], row["hit"], row["time"]):
             continue
-        name = row["method"].split()[0]
+        name = name_of(row["method"])
         if not registry.methods()[name].repeatable:
             loose[name] += 1
         else:

@@ -98,4 +98,4 @@ def test_a_power_of_two_changes_no_answer(precision, seed, angle):
 
 def same_but_for_size(body, by):
     """The very faces: a hull made anew may divide its flat sides in another way."""
-    return Body._of("convex", body.vertices * by, body.faces, (), body.name)
+    return Body.unchecked("convex", body.vertices * by, body.faces, (), body.name)

@@ -263,7 +263,7 @@ def test_sides_are_those_of_rational_arithmetic(rows, scale):
     assert (
         exact.flat(x.reshape(-1, 3), np.arange(3) + 4 * np.arange(len(x))[:, None])
         == [
-            not any(winding._normal([[Fraction(float(t)) for t in y] for y in row[:3]]))
+            not any(winding.normal_of([[Fraction(float(t)) for t in y] for y in row[:3]]))
             for row in x
         ]
     ).all()

@@ -6,13 +6,16 @@ from __future__ import annotations
 
 import matplotlib
 
+from baselines.label import name_of
+
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 
 from baselines import registry
-from experiments.analysis.tables.tables import COUNTS, Table
+from experiments.analysis.tables import Table
+from experiments.analysis.tables.chosen import COUNTS
 from experiments.cases import families
 from experiments.run import piece_truth
 from experiments.run.folder.store import Store
@@ -93,7 +96,7 @@ def panels(methods: list[str]) -> list[tuple[str, list[str]]]:
     """Engine and at most PER_PANEL of its methods, in the order of the table."""
     known, own = registry.methods(), {}
     for label in methods:
-        name = label.split()[0]
+        name = name_of(label)
         engine = (
             "no engine"
             if label == piece_truth.NAME

@@ -8,6 +8,8 @@ import io
 
 import matplotlib
 
+from baselines.label import curve_of, name_of
+
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
@@ -15,7 +17,7 @@ import pandas as pd
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from baselines import registry
-from experiments.analysis import metrics, views
+from experiments.analysis import costs, metrics, outcome, views
 from experiments.run.folder.store import Store
 from experiments.run.timing import SITUATIONS, SIZES, size_of
 
@@ -73,7 +75,7 @@ def joined(store: Store) -> pd.DataFrame:
     at least half (shared); those of other methods are over what they answered, and they are on no
     front.
     """
-    found = metrics.outcomes(store)
+    found = outcome.outcomes(store)
     found = found.assign(faces=size_of(found.faces))
     rates = pd.concat(
         [
@@ -82,7 +84,7 @@ def joined(store: Store) -> pd.DataFrame:
         ],
         ignore_index=True,
     )
-    times = metrics.costs(store).drop(columns=["low", "high"])
+    times = costs.costs(store).drop(columns=["low", "high"])
     points = times.merge(rates[rates.judged > 0], on=["question", "faces", "method"])
     points = points.assign(
         rate=points.wrong_rate,
@@ -171,7 +173,7 @@ def _panel(axis, part: pd.DataFrame, styles) -> None:
     axis.plot(
         front.us, 100 * front.rate, color="0.4", lw=4, alpha=0.35, drawstyle="steps-post", zorder=1
     )
-    for name, group in part.groupby(part.method.map(curve), sort=False):
+    for name, group in part.groupby(part.method.map(curve_of), sort=False):
         colour, marker = styles[name]
         axis.plot(group.us, 100 * group.rate, color=colour, lw=1, zorder=2)
         axis.errorbar(
@@ -233,20 +235,12 @@ def _panel(axis, part: pd.DataFrame, styles) -> None:
     axis.grid(alpha=0.25, lw=0.5)
 
 
-def curve(label: str) -> str:
-    """What the points of one curve have in common: the label without the parameter that the curve
-    runs over.
-    """
-    name, *words = label.split()
-    return " ".join([name, *words[1:]])
-
-
 def _styles(methods) -> dict[str, tuple[str, str]]:
     """A colour per engine, a marker per curve of that engine."""
     known = registry.methods()
     styles, seen = {}, {}
-    for name in dict.fromkeys(map(curve, methods)):
-        engine = known[name.split()[0]].engine if name.split()[0] in known else name
+    for name in dict.fromkeys(map(curve_of, methods)):
+        engine = known[name_of(name)].engine if name_of(name) in known else name
         colour, count = seen.get(engine, (COLOURS[len(seen) % len(COLOURS)], 0))
         # an engine with more curves than markers goes on in colours that other engines leave
         more = count // len(MARKERS)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from experiments.analysis import metrics, views
+from experiments.analysis import metrics, outcome, views
 from experiments.run import piece_truth
 from ofg import QUESTIONS
 
@@ -32,7 +32,7 @@ def leaderboards(found: pd.DataFrame) -> list[Table]:
         return []
     counts = metrics.rates(found, ["method"])
     counts = counts.sort_values(["wrong_rate", "wrong_high"], kind="stable", na_position="last")
-    single = metrics.out_of_their_depth(found)
+    single = outcome.out_of_their_depth(found)
     text = pd.DataFrame(
         {
             "method": marked(counts.method, single),
@@ -93,7 +93,7 @@ def leaderboards(found: pd.DataFrame) -> list[Table]:
 
 def accuracy_table(part: pd.DataFrame, question: str) -> Table:
     counts = metrics.rates(part, ["method"])
-    single = metrics.out_of_their_depth(part)
+    single = outcome.out_of_their_depth(part)
     text = pd.DataFrame(
         {
             "method": marked(counts.method, single),
@@ -137,7 +137,7 @@ def common_table(part: pd.DataFrame, question: str) -> Table:
         if len(counts)
         else counts.assign(rank=[])
     )
-    single = metrics.out_of_their_depth(same)
+    single = outcome.out_of_their_depth(same)
     text = pd.DataFrame(
         {
             "rank": counts["rank"].astype(str),

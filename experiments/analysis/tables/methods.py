@@ -5,6 +5,7 @@ from __future__ import annotations
 import pandas as pd
 
 from baselines import registry
+from baselines.label import name_of
 from experiments.analysis.outcome import method_of
 from experiments.run.folder.store import Store
 from ofg import QUESTIONS
@@ -17,7 +18,7 @@ UNKNOWN = "its file is not loaded here"  #: in place of what a method declares
 def _tolerance(name: str, found: pd.DataFrame) -> str:
     """Of the labels of a method; more than one where a parameter decides it."""
     made = [
-        m for label in found.method.unique() if label.split()[0] == name and (m := method_of(label))
+        m for label in found.method.unique() if name_of(label) == name and (m := method_of(label))
     ]
     return " or ".join(dict.fromkeys(str(m.tolerance) for m in made)) or "unknown"
 
@@ -25,7 +26,7 @@ def _tolerance(name: str, found: pd.DataFrame) -> str:
 def method_table(store: Store, found: pd.DataFrame) -> Table:
     """What each method of the run is, as it declares itself, with the version that ran."""
     versions, known, rows = store.facts.get("versions", {}), registry.methods(), []
-    for name in dict.fromkeys(label.split()[0] for label in found.method):
+    for name in dict.fromkeys(name_of(label) for label in found.method):
         m = known.get(name)
         if m is None:
             rows.append(

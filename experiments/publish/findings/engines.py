@@ -10,7 +10,8 @@ from collections.abc import Callable
 import pandas as pd
 
 from baselines import registry
-from experiments.analysis import metrics
+from baselines.label import name_of
+from experiments.analysis import metrics, outcome
 
 from .runs import (
     Missing,
@@ -47,7 +48,7 @@ def engine_of(label: str) -> str:
     """The heading of a method, or of a contestant of the stepping track, which is called like its
     engine or its method.
     """
-    name = label.split()[0]
+    name = name_of(label)
     known = registry.methods().get(name)
     if known is None or " " in label and name in SIMULATORS:
         return SIMULATORS.get(name, "")
@@ -69,9 +70,9 @@ def board(found: pd.DataFrame, heading: str) -> list[dict]:
         metrics.rates(found, ["method", "question"]).set_index(["method", "question"]),
         [],
     )
-    judged = found[found.outcome.isin(metrics.JUDGED)]
+    judged = found[found.outcome.isin(outcome.JUDGED)]
     wrong = (
-        judged.outcome.isin(["miss", "false alarm"])
+        judged.wrong
         .groupby([judged.method, judged.scenario], sort=False)
         .agg(["sum", "size", "mean"])
     )
@@ -107,14 +108,14 @@ def configuration_of(label: str) -> str:
     try:
         return registry.make(label)[0].configuration
     except (ImportError, ValueError):  # an engine that is not installed here
-        return registry.methods()[label.split()[0]].configuration
+        return registry.methods()[name_of(label)].configuration
 
 
 def gap(runs: Runs, of: Callable) -> dict:
     found, said = rows(runs.answers("gap"), scenario="feature_gap"), {}
     for method in of(found):
         part = rows(found, method=method)
-        bad = part[part.outcome.isin(["miss", "false alarm"])]
+        bad = part[part.wrong]
         said[method] = f"{wrong_rate(part)}" + (
             f", up to |gap|/size {bad.level.abs().max():.0e}" if len(bad) else ""
         )

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import pandas as pd
 
 from baselines import units
-from experiments.analysis import metrics
+from experiments.analysis import metrics, outcome
 from experiments.analysis.outcome import judge
 from experiments.analysis.plots import figures
 from experiments.run.folder.store import Store
@@ -116,7 +116,7 @@ def pieces(runs: Runs):
     store = Store(runs.folder / runs.board)
     if not store.has("pieces.parquet"):
         raise Missing(f"the run {runs.board} holds no pieces; run it anew")
-    with_them = metrics.with_pieces(store, runs.answers(runs.board))
+    with_them = outcome.with_pieces(store, runs.answers(runs.board))
     meshes = set(store.read("pieces.parquet").case)
     after = _counts(with_them[with_them.case.isin(meshes)])
     without = judge(store.read("observations.parquet"), store.read("cases.parquet"))

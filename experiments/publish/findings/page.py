@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from experiments.analysis import metrics
+from experiments.analysis import costs
 from experiments.run.folder import record
 from experiments.run.folder.store import Store, StoreError
 
@@ -48,7 +48,7 @@ def about(runs: Runs) -> list[dict]:
             found = runs.answers(run)
             size = f"{found.case.nunique()} cases x {found.method.nunique()}"
         if (folder / "timings.parquet").exists() and np.isfinite(
-            value := metrics.noise(Store(folder))
+            value := costs.noise(Store(folder))
         ):
             noise = f"{100 * value:.0f} %"
         before = noted.get("before", {})

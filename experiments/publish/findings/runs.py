@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from experiments.analysis import metrics
-from experiments.analysis.tables import tables
+from experiments.analysis import costs, metrics, outcome
+from experiments.analysis.tables import chosen
 from experiments.run.folder.store import Store, StoreError
 from experiments.studies import sizes
 
@@ -21,7 +21,7 @@ from . import ends
 
 MISSES = 0.05  # a rate of misses is small if its whole interval lies under this, large if above
 LATE = 1e-3  # of the step: what an estimate of the time of impact may be off
-NOISY = "within the noise"  # in place of a ratio: see metrics.ratios
+NOISY = "within the noise"  # in place of a ratio: see costs.ratios
 HOLDS, PART, FAILS, OPEN, UNMEASURED = "holds", "holds in part", "fails", "open", "not measured"
 
 
@@ -39,15 +39,15 @@ class Runs:
         self._read: dict = {}
 
     def answers(self, run: str) -> pd.DataFrame:
-        """metrics.outcomes of a run."""
-        return self._once(("answers", run), lambda: metrics.outcomes(Store(self.folder / run)))
+        """outcome.outcomes of a run."""
+        return self._once(("answers", run), lambda: outcome.outcomes(Store(self.folder / run)))
 
     def times(self, run: str) -> pd.DataFrame:
-        """metrics.case_costs of a run, with the scenario and level of each case."""
+        """costs.case_costs of a run, with the scenario and level of each case."""
         cases = lambda: self.answers(run)[["case", "scenario", "level"]].drop_duplicates()  # noqa: E731
         return self._once(
             ("times", run),
-            lambda: metrics.case_costs(Store(self.folder / run)).merge(cases(), on="case"),
+            lambda: costs.case_costs(Store(self.folder / run)).merge(cases(), on="case"),
         )
 
     def bodies(self, run: str) -> pd.Series:
@@ -154,7 +154,7 @@ def rate(frame: pd.DataFrame, kind: str = "misses", **wanted) -> Rate:
     """Misses, false alarms or tunnelled of the certified cases answered, by metrics.rates. Missing
     if there is no such case.
     """
-    count, total, interval, _ = tables.COUNTS[kind]
+    count, total, interval, _ = chosen.COUNTS[kind]
     part = rows(frame, **wanted)
     found = metrics.rates(part.assign(all=0), ["all"]).iloc[0]
     if not found[total]:
@@ -182,9 +182,9 @@ def are_small(rates) -> str:
 
 
 def ratio(times: pd.DataFrame, method: str, reference: str, by) -> pd.DataFrame:
-    """metrics.ratios of one method, indexed by `by`: ratio, low, high, pairs, in_noise."""
+    """costs.ratios of one method, indexed by `by`: ratio, low, high, pairs, in_noise."""
     groups = [by] if isinstance(by, str) else by
-    found = metrics.ratios(rows(times, method=[method, reference]), reference, groups)
+    found = costs.ratios(rows(times, method=[method, reference]), reference, groups)
     return rows(found, method=method).set_index(by).sort_index()
 
 

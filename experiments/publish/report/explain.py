@@ -24,7 +24,7 @@ import numpy as np
 import pandas as pd
 
 from baselines import registry
-from experiments.analysis import metrics
+from experiments.analysis import outcome
 from experiments.cases.case import Case
 from experiments.cases.label import Truth
 from experiments.run import answering, piece_truth
@@ -205,10 +205,10 @@ def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
     for method in (m for spec in config.asked for m in registry.make(spec)):
 
         def lost(case, loss, label=method.label):
-            return answering._row(case, label, loss.status, detail=loss.detail)
+            return answering.row(case, label, loss.status, detail=loss.detail)
 
         tasks.append(
-            pool.Task(answering._open, (method.label, config), [explained.case], rows.extend, lost)
+            pool.Task(answering.asker, (method.label, config), [explained.case], rows.extend, lost)
         )
     pool.run(
         tasks,
@@ -277,7 +277,7 @@ def verdicts(explained: Explained) -> pd.DataFrame:
     """method, outcome, time, error, detail of every method that answers the case's question, wrong
     answers first.
     """
-    found = metrics.judge(explained.said, pd.DataFrame([explained.row]), explained.pieces)
+    found = outcome.judge(explained.said, pd.DataFrame([explained.row]), explained.pieces)
     found = found[~found.detail.fillna("").str.startswith("does not answer")]
     own = (found.truth == piece_truth.PIECES) & (found.detail.fillna("") == "")
     found = found.assign(

@@ -20,6 +20,10 @@ SCRIPTS = (
     "pivot.js",
     "tables.js",
     "geometry.js",
+    "camera.js",
+    "lines.js",
+    "selections.js",
+    "proof.js",
     "scene.js",
     "words.js",
     "case.js",
@@ -27,6 +31,8 @@ SCRIPTS = (
     "run.js",
     "main.js",
 )
+#: in this order: later rules overrule earlier ones
+STYLES = ("colours.css", "base.css", "tables.css", "gallery.css", "case.css", "screens.css")
 MARK = re.compile("@@(TITLE|STYLE|STORES|SCRIPT)@@")
 LIBRARIES = ("plotly-basic.min.js", "three.min.js")
 
@@ -51,7 +57,7 @@ def page(payload: dict, title: str) -> str:
     made = (HERE / "page" / "page.html").read_text()
     parts = {
         "TITLE": html.escape(title),
-        "STYLE": (HERE / "page" / "style.css").read_text(),
+        "STYLE": "".join((HERE / "page" / "style" / name).read_text() for name in STYLES),
         "STORES": stores,
         "SCRIPT": script,
     }

@@ -18,8 +18,8 @@ import pandas as pd
 import ofg
 from baselines import registry
 from baselines.contract import Method
-from experiments.analysis import metrics, nesting, views
-from experiments.analysis.tables import tables
+from baselines.label import curve_of, name_of
+from experiments.analysis import costs, nesting, outcome, tables, views
 from experiments.analysis.tables.methods import UNKNOWN
 from experiments.cases import families
 from experiments.run import piece_truth
@@ -55,7 +55,7 @@ OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
 def of_run(store: Store, made_tables=None) -> dict:
     """Everything the page of a run shows; see page/data.js for its reading."""
-    rows, found = filled(nesting.of(store, store.read("cases.parquet"))), metrics.outcomes(store)
+    rows, found = filled(nesting.of(store, store.read("cases.parquet"))), outcome.outcomes(store)
     made = {
         "mode": "run",
         "run": _run(store),
@@ -93,7 +93,7 @@ def of_case(
         filled(pd.DataFrame([row])),
         pd.DataFrame([body_row(b) for b in (case.query.a, case.query.b)]),
     )
-    found = metrics.judge(observations, rows, pieces)
+    found = outcome.judge(observations, rows, pieces)
     made = {
         "mode": "case",
         "run": {"versions": versions, **({"refused": refused} if refused else {})},
@@ -112,7 +112,7 @@ def of_case(
         0,
         case,
         truth,
-        [label for label in made["labels"] if label.split()[0] == "ofg"],
+        [label for label in made["labels"] if name_of(label) == "ofg"],
         len(made["labels"]),
     )
     return {**made, **shapes.packed()}
@@ -131,7 +131,7 @@ def pack(content: bytes) -> str:
 
 def _run(store: Store) -> dict:
     facts = store.facts
-    noise = metrics.noise(store) if store.has("timings.parquet") else math.nan
+    noise = costs.noise(store) if store.has("timings.parquet") else math.nan
     return {
         "name": store.folder.resolve().name,
         "title": store.config.title or store.folder.resolve().name,
@@ -189,7 +189,7 @@ def _scenarios(rows: pd.DataFrame) -> dict:
 
 
 def _method(label: str, versions: dict) -> dict:
-    name, *_ = label.split()
+    name = name_of(label)
     cls = registry.methods().get(name)
     if cls is None:
         return {
@@ -211,7 +211,7 @@ def _method(label: str, versions: dict) -> dict:
     return {
         "label": label,
         "name": name,
-        "curve": _curve(label, cls),
+        "curve": curve_of(label),
         "engine": cls.engine,
         "version": versions.get(cls.engine),
         "configuration": method.configuration,
@@ -221,12 +221,6 @@ def _method(label: str, versions: dict) -> dict:
         "answers": [q for q in ofg.QUESTIONS if q in cls.questions],
         "bodies": sorted(cls.bodies),
     }
-
-
-def _curve(label: str, cls) -> str:
-    """The label without the method's first parameter: what its accuracy-speed curve holds fixed."""
-    first = next(iter(cls.parameters), None)
-    return " ".join(word for word in label.split() if word.split("=")[0] != first)
 
 
 def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
@@ -251,8 +245,8 @@ def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
     for _, part in found.groupby(pd.Categorical(found.method, labels), observed=True):
         letters = ["."] * len(rows)
         at = part.case.map(place)
-        for i, outcome, within in zip(at, part.outcome, part.within):
-            letters[i] = CODES[outcome].upper() if within else CODES[outcome]
+        for i, what, within in zip(at, part.outcome, part.within):
+            letters[i] = CODES[what].upper() if within else CODES[what]
         made["outcome"].append("".join(letters))
         for name in ("time", "error"):
             there = part[name].notna()
@@ -293,14 +287,10 @@ def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
     known = {case.id: (case, truth) for case, truth in cases_of(rows, store.read("bodies.parquet"))}
     shapes, ours = Shapes(BYTES), found[found.method.str.split().str[0] == "ofg"]
     first = ours.method.iloc[:1].tolist()
-    wrong = (
-        ours[ours.outcome.isin(["miss", "false alarm"]) | (ours.error > 0)]
-        .groupby("case", sort=False)
-        .method.agg(list)
-    )
+    wrong = ours[ours.wrong | (ours.error > 0)].groupby("case", sort=False).method.agg(list)
     with stage("draw cases for the page", len(order)) as advance:
         for i in order:
-            labels = [label for label in wanted.get(i, ()) if label.split()[0] == "ofg"]
+            labels = [label for label in wanted.get(i, ()) if name_of(label) == "ofg"]
             labels = list(dict.fromkeys([*labels, *wrong.get(i, [])]))
             shapes.add(place[i], *known[i], labels or first, OVERLAYS)
             advance(1)
@@ -374,7 +364,7 @@ class Shapes:
         "bodies" where it saw pieces of a mesh.
         """
         (method,) = registry.make(label)
-        options = {**method._options()}
+        options = {**method.options()}
         if method.decomposes:
             if not self.anew and not all(
                 body.kind != "mesh" or kept_at(body).is_file() for body in (query.a, query.b)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from baselines import registry
+from baselines.label import name_of
 from experiments.run import declared
 from experiments.run.config import ConfigError, RunConfig, load
 from experiments.run.folder import given, manifest
@@ -43,7 +44,7 @@ class Request:
         Raises ConfigError for a method of a file that the run names and that is not trusted.
         """
         found, config, versions = self._of_run() if self.store else self._of_file()
-        if strange := [s for s in self.methods if declared.recorded(s.split()[0])]:
+        if strange := [s for s in self.methods if declared.recorded(name_of(s))]:
             raise ConfigError(
                 f"The method '{strange[0]}' is of a file that the run names, which is not run; pass"
                 " --trust to run it, or its file with --methods."
@@ -121,5 +122,5 @@ def _title(found: Explained) -> str:
 
 def _strange(spec: str) -> bool:
     """Is it no method that is loaded here?"""
-    name = spec.split()[0]
+    name = name_of(spec)
     return name not in registry.methods() or declared.recorded(name)

@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from baselines import registry
-from baselines.bullet import _client
+from baselines.bullet import connection
 from ofg import Body, Motion, Pose, Query
 
 from .scene import ROD_INERTIA, Scene
@@ -42,7 +42,7 @@ class BulletWorld:
         maximal: bool = False,
         ccd: float = 0.0,
     ):
-        self.bullet, self.client = p, c = _client()
+        self.bullet, self.client = p, c = connection()
         p.resetSimulation(physicsClientId=c)
         p.setTimeStep(self.dt, physicsClientId=c)
         shape = (

@@ -55,7 +55,7 @@ def measure(preset: str, share: int, shares: int, cases: int | None, rounds: int
             chunk = queries[first : first + CHUNK]
             best = (float("inf"), float("inf"))
             for _ in range(rounds):
-                for cache in (prover._solids, *geometry.CACHES):
+                for cache in (prover.solids, *geometry.CACHES):
                     cache.clear()
                 t0 = time.process_time()
                 truths = [prove(q) for q in chunk]

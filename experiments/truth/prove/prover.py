@@ -19,7 +19,7 @@ from .touch import Plane, plane, witness
 
 EFFORT = 3e7  #: vertices visited per case before the prover gives up
 TOUCHING = 64  #: pairs of pieces of a case for which an exact plane is sought
-_solids: WeakKeyDictionary[Body, _native.Solid] = WeakKeyDictionary()
+solids: WeakKeyDictionary[Body, _native.Solid] = WeakKeyDictionary()
 
 
 def prove(query: Query) -> Truth:
@@ -195,9 +195,9 @@ def _inside(query, found, t) -> dict:
 
 
 def _solid(body: Body) -> _native.Solid:
-    if body not in _solids:
+    if body not in solids:
         if body.kind == "mesh":
-            _solids[body] = _native.Solid.of_mesh(body.vertices, body.faces)
+            solids[body] = _native.Solid.of_mesh(body.vertices, body.faces)
         else:
-            _solids[body] = _native.Solid.of_pieces([p.vertices for p in body.pieces])
-    return _solids[body]
+            solids[body] = _native.Solid.of_pieces([p.vertices for p in body.pieces])
+    return solids[body]

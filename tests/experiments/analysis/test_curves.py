@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from experiments.analysis import metrics
 from experiments.analysis.plots import curves
-from experiments.analysis.tables.tables import Table
+from experiments.analysis.tables import Table
 from experiments.run.config import TableChoice
 
 METHODS = (

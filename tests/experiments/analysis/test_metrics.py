@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from baselines import registry
 from baselines.conformance import box
 from baselines.tolerance import Tolerance
-from experiments.analysis import metrics, outcome
+from experiments.analysis import costs, metrics, outcome
 from experiments.cases.case import Case
 from experiments.cases.label import Truth
 from experiments.run.folder import rows
@@ -59,7 +59,7 @@ def seen(name, hit=None, status="ok", time=nan, method="probe"):
 
 
 def judged(cases, observations):
-    return metrics.judge(pd.DataFrame(observations).astype({"hit": "boolean"}), pd.DataFrame(cases))
+    return outcome.judge(pd.DataFrame(observations).astype({"hit": "boolean"}), pd.DataFrame(cases))
 
 
 class Tables:
@@ -216,7 +216,7 @@ def clocked(own, other, floor=(100, 100, 100)):
 
 
 def ratio_of(run):
-    found = metrics.ratios(metrics.case_costs(run), "ofg k=8", ["question"])
+    found = costs.ratios(costs.case_costs(run), "ofg k=8", ["question"])
     return found[found.method == "brute-force"].iloc[0]
 
 
@@ -232,7 +232,7 @@ def test_where_half_lies_within_the_noise_there_is_no_ratio():
     run = clocked((1, 2, 100, 200), [1000] * 4, (60, 100, 140))
     row = ratio_of(run)
     assert np.isnan(row.ratio) and (row.pairs, row.in_noise) == (2, 2)
-    assert metrics.paired_ratios(run, "ofg k=8").empty
+    assert costs.paired_ratios(run, "ofg k=8").empty
 
 
 @pytest.mark.parametrize(

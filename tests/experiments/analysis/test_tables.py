@@ -10,9 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from experiments.analysis import metrics
-from experiments.analysis.tables import accuracy, tables
-from experiments.cli.app import _strips, _width, console
+from experiments.analysis import metrics, outcome, tables
+from experiments.analysis.tables import accuracy, chosen, labels
+from experiments.analysis.tables.table import latex
+from experiments.cli.screen import _strips, _width, console
 from experiments.run.config import RunConfig, TableChoice
 
 from .cubes import BODIES, placed
@@ -93,8 +94,8 @@ class Run:
 
 def made(value, **more):
     run = Run()
-    return tables.chosen_table(
-        run, metrics.outcomes(run), TableChoice(name="t", title="T.", value=value, **more)
+    return chosen.chosen_table(
+        run, outcome.outcomes(run), TableChoice(name="t", title="T.", value=value, **more)
     )
 
 
@@ -141,8 +142,8 @@ def test_intervals_are_in_the_csv():
 def test_ratios_are_net_and_paired():
     run = Run()
     run.observations["status"], run.observations["hit"] = "ok", True
-    table = tables.chosen_table(
-        run, metrics.outcomes(run), TableChoice(name="t", title="T.", value="ratio")
+    table = chosen.chosen_table(
+        run, outcome.outcomes(run), TableChoice(name="t", title="T.", value="ratio")
     )
     assert table.text.set_index("method").loc["brute-force", "1"] == "4 [4, 4]"
 
@@ -156,7 +157,7 @@ WORDS = st.text(
 @given(WORDS, WORDS, st.lists(WORDS, min_size=1, max_size=4, unique=True))
 def test_latex_closes_what_it_opens_and_lets_nothing_through(title, caption, cells):
     frame = pd.DataFrame([cells], columns=[f"c{i}" for i in range(len(cells))])
-    check_latex(tables.latex(tables.Table("name", title, caption, frame, frame)), len(cells))
+    check_latex(latex(tables.Table("name", title, caption, frame, frame)), len(cells))
 
 
 def check_latex(text: str, columns: int) -> None:
@@ -178,7 +179,7 @@ def check_latex(text: str, columns: int) -> None:
 
 
 def test_latex_of_a_real_table():
-    check_latex(tables.latex(made("misses")).replace("{tab:t}", "{tab:name}"), 4)
+    check_latex(latex(made("misses")).replace("{tab:t}", "{tab:name}"), 4)
 
 
 def test_a_wide_table_is_printed_in_strips_that_fit(monkeypatch):
@@ -204,7 +205,7 @@ def test_the_leaderboard_counts_all_questions_and_puts_the_least_share_of_errors
     run.observations = pd.concat(
         [run.observations[run.observations.method == "ofg k=8"], more], ignore_index=True
     )
-    found = metrics.outcomes(run)
+    found = outcome.outcomes(run)
     text = accuracy.leaderboards(found)[0].text.set_index("method")
     assert list(text.index) == ["brute-force", "ofg k=8"]  # 0 of 4; 2 of 8
     own = text.loc["ofg k=8"]
@@ -229,7 +230,7 @@ def asked_in(precision):
     rows = [(m, "a", "ok", True, nan, "") for m in ("mujoco", "fcl-convex")]
     columns = ["method", "case", "status", "hit", "time", "detail"]
     run.observations = pd.DataFrame(rows, columns=columns).astype({"hit": "boolean"})
-    return metrics.outcomes(run)
+    return outcome.outcomes(run)
 
 
 def test_single_precision_is_marked_where_cases_are_not_rounded_to_it():
@@ -243,7 +244,7 @@ def test_single_precision_is_marked_where_cases_are_not_rounded_to_it():
         assert "\u2020: computes or holds bodies in single precision" in marked.caption
         assert set(marked.numbers.method) == {"mujoco", "fcl-convex"}
         check_latex(
-            tables.latex(marked).replace(f"{{tab:{marked.name}}}", "{tab:name}"),
+            latex(marked).replace(f"{{tab:{marked.name}}}", "{tab:name}"),
             marked.text.shape[1],
         )
 
@@ -251,15 +252,15 @@ def test_single_precision_is_marked_where_cases_are_not_rounded_to_it():
 def test_a_run_from_before_precisions_counts_as_float32():
     run = Run()
     assert "precision" not in run.cases
-    assert not metrics.out_of_their_depth(metrics.outcomes(run))
+    assert not outcome.out_of_their_depth(outcome.outcomes(run))
 
 
 def test_touching_cases_have_a_table_of_their_own():
     run = Run()
-    assert tables.touching_table(metrics.outcomes(run), "overlap").text.empty
+    assert labels.touching_table(outcome.outcomes(run), "overlap").text.empty
     run.cases = run.cases.assign(touching=run.cases.case == "d")
-    found = metrics.outcomes(run)
-    text = tables.touching_table(found, "overlap").text.set_index("method")
+    found = outcome.outcomes(run)
+    text = labels.touching_table(found, "overlap").text.set_index("method")
     assert text.loc["ofg k=8"].to_dict() == {
         "cases": "1",
         "answered": "1",
@@ -274,9 +275,9 @@ def test_the_truth_table_counts_what_touches_where_there_is_any():
     run = Run()
     run.cases = run.cases.assign(attempt=0)
     assert (
-        "touching" not in tables.truth_table(run).text
-        and "Touching" not in tables.truth_table(run).caption
+        "touching" not in labels.truth_table(run).text
+        and "Touching" not in labels.truth_table(run).caption
     )
     run.cases = run.cases.assign(touching=run.cases.case == "d")
-    table = tables.truth_table(run)
+    table = labels.truth_table(run)
     assert table.text.touching.tolist() == ["1"] and "in no rate" in table.caption

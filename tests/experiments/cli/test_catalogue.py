@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from baselines import registry
-from experiments.analysis.tables import tables
+from experiments.analysis import tables
 from experiments.cli import runner
 from experiments.run import config, labelling
 from experiments.run.folder.store import Store

@@ -13,7 +13,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from experiments.analysis.tables import tables
+from experiments.analysis import tables
 from experiments.cli import runner
 from experiments.run.config import ConfigError, RunConfig
 from experiments.run.folder.store import Store

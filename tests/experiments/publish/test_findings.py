@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from baselines import registry
-from experiments.analysis import metrics
+from experiments.analysis import metrics, outcome
 from experiments.cases import families
 from experiments.publish.findings import ends, objections
 from experiments.publish.findings import page as page_of
@@ -116,7 +116,7 @@ class Fake(Runs):
             ],
             columns=["method", "case", "status", "hit", "time", "detail"],
         )
-        return metrics.judge(answers, cases)
+        return outcome.judge(answers, cases)
 
     def bodies(self, run):
         return dict.fromkeys(self.answers(run).case, "convex and mesh")

@@ -12,8 +12,7 @@ import pytest
 
 import ofg
 from experiments.analysis import compare as comparing
-from experiments.analysis import metrics
-from experiments.analysis.tables import tables
+from experiments.analysis import outcome, tables
 from experiments.cli import runner
 from experiments.run import piece_truth
 from experiments.run.config import RunConfig
@@ -47,7 +46,7 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def found(folder):
-    return metrics.outcomes(Store(folder))
+    return outcome.outcomes(Store(folder))
 
 
 def test_each_case_about_a_mesh_is_certified_of_its_pieces_too(folder):
@@ -86,9 +85,9 @@ def test_the_truth_is_the_pieces_where_a_method_decomposes_and_the_case_has_a_me
 def test_a_run_without_pieces_is_judged_by_its_meshes(folder):
     store = Store(folder)
     said, cases = store.read("observations.parquet"), store.read("cases.parquet")
-    before = metrics.judge(said, cases)
+    before = outcome.judge(said, cases)
     assert set(before.truth) == {"mesh"}
-    after = metrics.judge(said, cases, store.read("pieces.parquet"))
+    after = outcome.judge(said, cases, store.read("pieces.parquet"))
     same = after.truth == "mesh"
     columns = ["label", "outcome", "can_tunnel", "tunnelled", "relative_gap"]
     pd.testing.assert_frame_equal(before[same][columns], after[same][columns])
@@ -119,7 +118,7 @@ def test_an_uncertain_truth_of_the_pieces_is_in_no_rate(folder):
     pieces = store.read("pieces.parquet")
     pieces.loc[:, "label"] = "uncertain"
     said, cases = store.read("observations.parquet"), store.read("cases.parquet")
-    judged = metrics.judge(said, cases, pieces)
+    judged = outcome.judge(said, cases, pieces)
     assert set(judged[judged.truth == "pieces"].outcome) == {"no label"}
     assert piece_truth.own_error(cases, pieces).empty
 

@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from experiments.analysis import metrics
-from experiments.analysis.tables import tables
+from experiments.analysis import costs
+from experiments.analysis.tables import cost
 from experiments.cases.families import get
 from experiments.run.config import RunConfig
 from experiments.run.folder.store import Store
@@ -57,8 +57,8 @@ def test_a_method_that_dies_loses_its_own_times_alone(tmp_path):
     assert set(found.method) == {"ofg k=8", "frail lives=1000", "(noise probe)", LOST}
     assert all(len(rounds) == 3 for rounds in found[found.method != LOST].rounds_ns)
     store.write(found, "timings.parquet")
-    (words,) = metrics.lost(store)
+    (words,) = costs.lost(store)
     assert words.startswith(
         "frail lives=3: error, killed twice, alone: SIGABRT"
-    ) and words in tables._state(store)
-    assert set(metrics.case_costs(store).method) == {"ofg k=8", "frail lives=1000"}
+    ) and words in cost.state_of(store)
+    assert set(costs.case_costs(store).method) == {"ofg k=8", "frail lives=1000"}

@@ -85,7 +85,7 @@ def moved_together(q: Query, half_turn: int) -> Query:
 def scaled(q: Query, power: int) -> Query:
     """Every length times 2**power, exactly."""
     f = 2.0**power
-    a, b = (Body._of("convex", x.vertices * f, x.faces, (), x.name) for x in (q.a, q.b))
+    a, b = (Body.unchecked("convex", x.vertices * f, x.faces, (), x.name) for x in (q.a, q.b))
     pose_a, pose_b = (Pose(p.quaternion, p.position * f) for p in (q.pose_a, q.pose_b))
     motions = [
         Motion(m.displacement * f, m.axis, m.angle, m.about * f) for m in (q.motion, q.motion_b)

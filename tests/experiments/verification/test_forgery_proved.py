@@ -172,7 +172,7 @@ def test_an_open_mesh_in_an_own_case_is_refused(own, tmp_path):
     def opened(frames):
         bodies = frames["bodies"]
         cube = rows.body_of(next(bodies.itertuples()))
-        row = rows.body_row(Body._of("mesh", cube.vertices, cube.faces[2:], (), cube.name))
+        row = rows.body_row(Body.unchecked("mesh", cube.vertices, cube.faces[2:], (), cube.name))
         for side in ("body_a", "body_b"):
             frames["cases"][side] = frames["cases"][side].replace(cube.digest, row["body"])
         frames["bodies"] = pd.concat([pd.DataFrame([row]), bodies.iloc[1:]], ignore_index=True)

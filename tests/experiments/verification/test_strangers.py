@@ -307,7 +307,7 @@ def test_an_open_mesh_is_refused_when_it_is_read_back(run, tmp_path):
     """A cube without its top was read back, and a body inside it certified clear."""
     here = copied(run, tmp_path / "run")
     bodies, cases = (pd.read_parquet(here / f"{name}.parquet") for name in ("bodies", "cases"))
-    open_ = Body._of("mesh", strangers.CUBE, strangers.FACES[2:], (), "open")
+    open_ = Body.unchecked("mesh", strangers.CUBE, strangers.FACES[2:], (), "open")
     row = rows.body_row(open_)
     pd.concat([bodies, pd.DataFrame([row])]).to_parquet(here / "bodies.parquet")
     cases.assign(body_a=open_.digest).to_parquet(here / "cases.parquet")

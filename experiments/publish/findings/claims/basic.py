@@ -5,8 +5,30 @@ from __future__ import annotations
 import numpy as np
 
 from experiments import bench_ofg
+from experiments.publish.findings.runs import (
+    FAILS,
+    HOLDS,
+    MISSES,
+    OPEN,
+    PART,
+    Missing,
+    Runs,
+    are_small,
+    by_family,
+    interval,
+    listed,
+    or_reason,
+    rate,
+    ratio,
+    ratios_listed,
+    rows,
+    share_of,
+    size_rates,
+    spread,
+    times_more,
+)
 from experiments.studies import sizes
-from experiments.publish.findings.runs import FAILS, HOLDS, MISSES, Missing, OPEN, PART, Runs, are_small, by_family, interval, listed, or_reason, rate, ratio, ratios_listed, rows, share_of, size_rates, spread, times_more
+
 from .claim import BASIC, PROBLEMS, claim
 
 HULLS = "Random hulls of one size against each other."

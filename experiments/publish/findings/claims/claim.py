@@ -7,10 +7,10 @@ verdict, where the rows are, the limits) are given to the decorator.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
-from experiments.publish.findings.runs import Missing, Runs, UNMEASURED
+from experiments.publish.findings.runs import UNMEASURED, Missing, Runs
 
 BASIC = "The OFG algorithm"
 TIME = "Solving the discrete time problem"

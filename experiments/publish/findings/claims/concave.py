@@ -2,7 +2,20 @@
 
 from __future__ import annotations
 
-from experiments.publish.findings.runs import FAILS, HOLDS, MISSES, Runs, are_small, by_family, listed, or_reason, rate, rows, spread
+from experiments.publish.findings.runs import (
+    FAILS,
+    HOLDS,
+    MISSES,
+    Runs,
+    are_small,
+    by_family,
+    listed,
+    or_reason,
+    rate,
+    rows,
+    spread,
+)
+
 from .claim import CONCAVE, PROBLEMS, claim
 
 

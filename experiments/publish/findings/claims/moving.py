@@ -9,9 +9,28 @@ import numpy as np
 import pandas as pd
 
 from baselines import registry
+from experiments.analysis import costs, metrics
+from experiments.publish.findings.runs import (
+    FAILS,
+    HOLDS,
+    LATE,
+    MISSES,
+    PART,
+    Missing,
+    Runs,
+    are_small,
+    by_family,
+    listed,
+    or_reason,
+    overall,
+    rate,
+    ratios_listed,
+    rows,
+    share_of,
+    spread,
+    worst_families,
+)
 
-from experiments.analysis import metrics
-from experiments.publish.findings.runs import FAILS, HOLDS, LATE, MISSES, Missing, PART, Runs, are_small, by_family, listed, or_reason, overall, rate, ratios_listed, rows, share_of, spread, worst_families
 from .claim import TIME, TURN, claim
 
 
@@ -52,8 +71,9 @@ def thin_walls(runs: Runs):
 )
 def flights(runs: Runs):
     found = rows(runs.answers(runs.board), question="translation")
-    every, own, whole = rate(found, method="brute-force"), *(
-        or_reason(rate, found, method=m) for m in ("ofg k=8", "ofg k=8 repairs=all")
+    every, own, whole = (
+        rate(found, method="brute-force"),
+        *(or_reason(rate, found, method=m) for m in ("ofg k=8", "ofg k=8 repairs=all")),
     )
 
     def features():
@@ -140,7 +160,7 @@ def impact(runs: Runs, method: str) -> tuple[str, str]:
         return verdict, f"no time at all{lost}"
     e = error.iloc[0]
     timed = found.assign(off=off).dropna(subset=["off"])
-    middle = metrics.medians(timed, "off", ["method"]).iloc[0]
+    middle = costs.medians(timed, "off", ["method"]).iloc[0]
     return (
         verdict,
         (

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pandas as pd
 
 from experiments import bench_ofg
+
 from ..runs import (
     FAILS,
     HOLDS,
@@ -181,7 +182,11 @@ def repaired(runs: Runs):
     verdict = (
         OPEN
         if all(none) and not all(r.small for r in by_question.values())
-        else HOLDS if all(none) else PART if any(none) else FAILS
+        else HOLDS
+        if all(none)
+        else PART
+        if any(none)
+        else FAILS
     )
     return verdict, f"missed: {listed(by_question)}", text
 

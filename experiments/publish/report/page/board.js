@@ -4,13 +4,33 @@ function drawBoard() {
     silent = [];
   D.labels.forEach((label, m) => {
     const r = rates(m, subset);
-    if (!r.answered) return void silent.push(label);
-    rows.push({ m, label, about: D.methods[m], r, cost: cost(m, F.lane, subset), all: r.answered === r.asked });
+    if (!r.answered) {
+      silent.push(label);
+      return;
+    }
+    rows.push({
+      m,
+      label,
+      about: D.methods[m],
+      r,
+      cost: cost(m, F.lane, subset),
+      all: r.answered === r.asked,
+    });
   });
-  const place = { question: F.question, sizes: F.sizes, situation: F.situation, bodies: F.bodies, band: F.band, scenario: F.scenario };
+  const place = {
+    question: F.question,
+    sizes: F.sizes,
+    situation: F.situation,
+    bodies: F.bodies,
+    band: F.band,
+    scenario: F.scenario,
+  };
   const count = (row, n, total, kind, title) =>
     total
-      ? [link({ ...place, method: row.label, kind }, share(n, total), title), el("small", {}, interval(wilson(n, total)))]
+      ? [
+          link({ ...place, method: row.label, kind }, share(n, total), title),
+          el("small", {}, interval(wilson(n, total))),
+        ]
       : "–";
   const rate = (n, total) => (total ? n / total : NaN);
   const sweep = F.question !== "overlap",
@@ -21,16 +41,27 @@ function drawBoard() {
       left: true,
       key: (x) => x.label,
       cell: (x) => [
-        el("span", { class: "dot", style: `--dot:${engineColour(x.about.engine)}`, "aria-hidden": "true" }),
+        el("span", {
+          class: "dot",
+          style: `--dot:${engineColour(x.about.engine)}`,
+          "aria-hidden": "true",
+        }),
         x.label,
-        el("small", {}, `${x.about.configuration}${x.about.solid === false ? " · surfaces only" : ""}`),
+        el(
+          "small",
+          {},
+          `${x.about.configuration}${x.about.solid === false ? " · surfaces only" : ""}`,
+        ),
       ],
     },
     {
       title: "Wrong",
       note: "misses and false alarms of the certified cases answered, 95 % Wilson interval",
       key: (x) => rate(x.r.wrong, x.r.judged),
-      cell: (x) => [bar(rate(x.r.wrong, x.r.judged), wilson(x.r.wrong, x.r.judged)), count(x, x.r.wrong, x.r.judged, "wrong")],
+      cell: (x) => [
+        bar(rate(x.r.wrong, x.r.judged), wilson(x.r.wrong, x.r.judged)),
+        count(x, x.r.wrong, x.r.judged, "wrong"),
+      ],
     },
     {
       title: "Misses",
@@ -52,9 +83,14 @@ function drawBoard() {
     },
     {
       title: "Contained",
-      note: "hits of a body inside another whose surfaces do not meet: no test of surfaces can see them, and they are in no rate",
+      note:
+        "hits of a body inside another whose surfaces do not meet: no test of surfaces can see " +
+        "them, and they are in no rate",
       key: (x) => x.r.contained,
-      cell: (x) => (x.r.contained ? link({ ...place, method: x.label, kind: "contained" }, String(x.r.contained)) : "0"),
+      cell: (x) =>
+        x.r.contained
+          ? link({ ...place, method: x.label, kind: "contained" }, String(x.r.contained))
+          : "0",
     },
     sweep && {
       title: "Tunnelled",
@@ -64,7 +100,9 @@ function drawBoard() {
     },
     sweep && {
       title: "Time error",
-      note: "median and latest error of the time of impact beyond its certified bracket, as a share of the step",
+      note:
+        "median and latest error of the time of impact beyond its certified bracket, as a " +
+        "share of the step",
       key: (x) => x.r.medianError,
       cell: (x) =>
         x.r.timed
@@ -74,7 +112,10 @@ function drawBoard() {
                 "small",
                 {},
                 x.r.worstLate
-                  ? [`latest `, link({ ...place, method: x.label, kind: "late" }, number(x.r.worstLate, 2))]
+                  ? [
+                      `latest `,
+                      link({ ...place, method: x.label, kind: "late" }, number(x.r.worstLate, 2)),
+                    ]
                   : "never late",
               ),
             ]
@@ -84,13 +125,24 @@ function drawBoard() {
       title: "Answered",
       key: (x) => rate(x.r.answered, x.r.asked),
       cell: (x) => [
-        link({ ...place, method: x.label, kind: "answered" }, x.all ? "all" : share(x.r.answered, x.r.asked)),
-        x.r.failed ? el("small", {}, link({ ...place, method: x.label, kind: "failed" }, `${x.r.failed} crashed or hung`)) : "",
+        link(
+          { ...place, method: x.label, kind: "answered" },
+          x.all ? "all" : share(x.r.answered, x.r.asked),
+        ),
+        x.r.failed
+          ? el(
+              "small",
+              {},
+              link({ ...place, method: x.label, kind: "failed" }, `${x.r.failed} crashed or hung`),
+            )
+          : "",
       ],
     },
     timing && {
       title: "Time, µs",
-      note: "net (gross): median over the timed cases, with a distribution-free 95 % interval of the gross; net is without the method's floor",
+      note:
+        "net (gross): median over the timed cases, with a distribution-free 95 % interval of " +
+        "the gross; net is without the method's floor",
       key: (x) => x.cost?.net,
       cell: (x) =>
         x.cost?.bins
@@ -101,39 +153,61 @@ function drawBoard() {
                   { ...place, method: x.label, kind: "clocked" },
                   `${microseconds(x.cost.net)} (${microseconds(x.cost.gross)})`,
                 ),
-                el("small", {}, `${microseconds(x.cost.low)}–${microseconds(x.cost.high)} · ${plural(x.cost.n, "case")}`),
+                el(
+                  "small",
+                  {},
+                  `${microseconds(x.cost.low)}–${microseconds(x.cost.high)} · ` +
+                    `${plural(x.cost.n, "case")}`,
+                ),
               ]
             : "–",
     },
   ].filter(Boolean);
-  document
-    .getElementById("board-table")
-    .replaceChildren(
-      sortable(columns, rows, { start: 1, id: "leaderboard", caption: `Leaderboard, ${F.question}` }),
-      silent.length
-        ? el(
-            "p",
-            { class: "note" },
-            `${plural(silent.length, "method")} of the run answer none of these cases and are not listed: ${silent.join(", ")}.`,
-          )
-        : "",
-    );
+  document.getElementById("board-table").replaceChildren(
+    sortable(columns, rows, {
+      start: 1,
+      id: "leaderboard",
+      caption: `Leaderboard, ${F.question}`,
+    }),
+    silent.length
+      ? el(
+          "p",
+          { class: "note" },
+          `${plural(silent.length, "method")} of the run answer none of these cases and are ` +
+            `not listed: ${silent.join(", ")}.`,
+        )
+      : "",
+  );
 }
 
 // A rate as a bar with its interval as a whisker; the numbers stand beside it.
 function bar(rate, [low, high]) {
   return el(
     "span",
-    { class: "bar", "aria-hidden": "true", style: `--rate:${100 * rate}%;--low:${100 * low}%;--high:${100 * high}%` },
+    {
+      class: "bar",
+      "aria-hidden": "true",
+      style: `--rate:${100 * rate}%;--low:${100 * low}%;--high:${100 * high}%`,
+    },
     el("i"),
     el("b"),
   );
 }
 
 const link = (to, text, title) =>
-  el("button", { type: "button", class: "link", title: title || "show these cases", onclick: () => openCases(to) }, text);
+  el(
+    "button",
+    {
+      type: "button",
+      class: "link",
+      title: title || "show these cases",
+      onclick: () => openCases(to),
+    },
+    text,
+  );
 
-const PALETTE = Array.from({ length: 10 }, (_, i) => `var(--c${i})`); // an engine each; there are nine
+// A colour for each engine; there are nine.
+const PALETTE = Array.from({ length: 10 }, (_, i) => `var(--c${i})`);
 function engineColour(engine) {
   const engines = [...new Set(D.methods.map((m) => m.engine))];
   return PALETTE[engines.indexOf(engine) % PALETTE.length];

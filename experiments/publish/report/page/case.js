@@ -13,7 +13,8 @@ async function caseView(root, i, method) {
   const canvas = el("canvas", {
     tabindex: "0",
     class: "stage",
-    "aria-label": "The two bodies in 3D. Arrow keys turn, plus and minus go closer and away, 0 shows all.",
+    "aria-label":
+      "The two bodies in 3D. Arrow keys turn, plus and minus go closer and away, 0 shows all.",
   });
   const said = el("p", { class: "said", role: "status" }),
     legend = el("ul", { class: "legend" }),
@@ -31,7 +32,10 @@ async function caseView(root, i, method) {
   const clock = el("output", { class: "clock" }),
     marks = el("div", { class: "marks", "aria-hidden": "true" });
   const play = el("button", { type: "button", class: "play", onclick: () => run() }, "▶ Play");
-  const jump = (t, text) => (t === null || t === undefined ? null : el("button", { type: "button", onclick: () => go(t) }, text));
+  const jump = (t, text) =>
+    t === null || t === undefined
+      ? null
+      : el("button", { type: "button", onclick: () => go(t) }, text);
   const check = (name, text) =>
     el(
       "label",
@@ -56,14 +60,23 @@ async function caseView(root, i, method) {
           "div",
           { class: "stage-tools" },
           ["all", "a", "b", "contact"].map((w) =>
-            el("button", { type: "button", onclick: () => scene.aim(w) }, { all: "All", a: "A", b: "B", contact: "Contact" }[w]),
+            el(
+              "button",
+              { type: "button", onclick: () => scene.aim(w) },
+              { all: "All", a: "A", b: "B", contact: "Contact" }[w],
+            ),
           ),
         ),
       )
     : el(
         "div",
         { class: "stage-box none" },
-        el("p", {}, "The bodies of this case are not in this page, to keep it small. Its own page, with everything:"),
+        el(
+          "p",
+          {},
+          "The bodies of this case are not in this page, to keep it small. Its own page, " +
+            "with everything:",
+        ),
         el("code", {}, `ofg-bench explain ${c.case[i]} --run ${D.run.name || "RUN"}`),
       );
   const time =
@@ -80,7 +93,9 @@ async function caseView(root, i, method) {
             jump(0, "start"),
             c.label[i] === "hit" && c.start[i] === "clear" ? jump(c.t_lo[i], "last clear") : null,
             c.label[i] === "hit" ? jump(c.t_hi[i], "impact") : null,
-            D.time[D.method.get(method)]?.has(i) ? jump(D.time[D.method.get(method)].get(i), `as ${method} has it`) : null,
+            D.time[D.method.get(method)]?.has(i)
+              ? jump(D.time[D.method.get(method)].get(i), `as ${method} has it`)
+              : null,
             jump(1, "end"),
           ),
         )
@@ -108,7 +123,8 @@ async function caseView(root, i, method) {
     timer = 0;
 
   function go(t) {
-    ((view.t = t), (slider.value = String(t)));
+    view.t = t;
+    slider.value = String(t);
     clock.textContent = `t = ${t.toFixed(t > 0 && t < 1e-3 ? 6 : 4)}`;
     if (scene) said.textContent = proofWords(i, g, scene.time(moving ? t : 0), t);
   }
@@ -123,7 +139,8 @@ async function caseView(root, i, method) {
     let last = 0,
       t = view.t >= 1 ? 0 : view.t;
     const frame = (now) => {
-      ((t += last ? Math.min(now - last, 60) / 4000 : 0), (last = now));
+      t += last ? Math.min(now - last, 60) / 4000 : 0;
+      last = now;
       go(Math.min(t, 1));
       if (t >= 1) {
         timer = 0;
@@ -139,7 +156,9 @@ async function caseView(root, i, method) {
       ...(labels.length
         ? [
             el("h3", {}, "What OFG looked at"),
-            labels.length > 1 ? select("Configuration", labels, label, look) : el("p", { class: "note" }, label),
+            labels.length > 1
+              ? select("Configuration", labels, label, look)
+              : el("p", { class: "note" }, label),
             ofgWords(i, label, x),
           ]
         : []),
@@ -151,7 +170,9 @@ async function caseView(root, i, method) {
         ["--plane", "separating plane", Boolean(D.proofs[i]?.clear)],
         [
           "--met",
-          [D.proofs[i]?.hit ? "common point" : "", x?.met ? "faces that met, by OFG" : ""].filter(Boolean).join(", "),
+          [D.proofs[i]?.hit ? "common point" : "", x?.met ? "faces that met, by OFG" : ""]
+            .filter(Boolean)
+            .join(", "),
           D.proofs[i]?.hit || x?.met,
         ],
         ["--chosen", "virtual edges", x && moving],

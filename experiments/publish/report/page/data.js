@@ -1,5 +1,6 @@
 "use strict";
-// The run, decoded: D.cases holds columns, D.outcome one letter for each method and case. Every count on the page is a count of letters.
+// The run, decoded: D.cases holds columns, D.outcome one letter for each method and case. Every
+// count on the page is a count of letters.
 let D, BYTES;
 
 async function inflate(id) {
@@ -17,15 +18,22 @@ async function readData() {
   for (const name of ["time", "error", "detail"])
     D[name] = D[name].map(([at, values]) => new Map(at.map((i, j) => [i, values[j]])));
   D.truth = D.truth.map(
-    ([at, labels, tunnels]) => new Map(at.map((i, j) => [i, { label: labels[j], canTunnel: tunnels[j] }])),
+    ([at, labels, tunnels]) =>
+      new Map(at.map((i, j) => [i, { label: labels[j], canTunnel: tunnels[j] }])),
   );
   D.canTunnel = Array.from({ length: D.n }, (_, i) => {
     const c = D.cases;
-    return c.question[i] !== "overlap" && c.label[i] === "hit" && c.start[i] === "clear" && c.end[i] === "clear";
+    return (
+      c.question[i] !== "overlap" &&
+      c.label[i] === "hit" &&
+      c.start[i] === "clear" &&
+      c.end[i] === "clear"
+    );
   });
 }
 
-// What the answer of method m is judged by: the case's truth, or that of the pieces that the method put in place of a mesh.
+// What the answer of method m is judged by: the case's truth, or that of the pieces that the method
+// put in place of a mesh.
 function truthOf(i, m) {
   return D.truth[m]?.get(i) || { label: D.cases.label[i], canTunnel: D.canTunnel[i] };
 }
@@ -57,7 +65,9 @@ async function body(index) {
       b = D.bodies[index];
     const [v, kind, nv] = b.v,
       [f, wide, nf] = b.f;
-    const vertices = Float64Array.from(new (kind === "f4" ? Float32Array : Float64Array)(bytes, v, 3 * nv));
+    const vertices = Float64Array.from(
+      new (kind === "f4" ? Float32Array : Float64Array)(bytes, v, 3 * nv),
+    );
     const faces = new (wide === "u2" ? Uint16Array : Uint32Array)(bytes, f, 3 * nf);
     bodies.set(index, { ...b, vertices, faces });
   }
@@ -131,7 +141,8 @@ const clockedBy = new Map();
 function clocked(m) {
   if (!clockedBy.has(m)) {
     const all = new Set();
-    for (const lane of Object.values(D.lanes)) for (const i of lane[D.labels[m]]?.cases || []) all.add(i);
+    for (const lane of Object.values(D.lanes))
+      for (const i of lane[D.labels[m]]?.cases || []) all.add(i);
     clockedBy.set(m, all);
   }
   return clockedBy.get(m);
@@ -226,11 +237,21 @@ function rates(m, among) {
       r.timed++;
       list.push(Math.abs(e));
       if (e > 0) r.late++;
-      ((r.worstLate = Math.max(r.worstLate, e)), (r.worstEarly = Math.min(r.worstEarly, e)));
+      r.worstLate = Math.max(r.worstLate, e);
+      r.worstEarly = Math.min(r.worstEarly, e);
     }
   }
-  ((r.wrong = r.misses + r.alarms), (r.beyond = r.wrong - r.within), (r.judged = r.hits + r.clears), (r.medianError = median(list)));
+  r.wrong = r.misses + r.alarms;
+  r.beyond = r.wrong - r.within;
+  r.judged = r.hits + r.clears;
+  r.medianError = median(list);
   return r;
+}
+
+// What a scenario exposes, behind a mark; nothing of one that the run does not describe.
+function exposed(mark, scenario) {
+  const known = D.scenarios[scenario];
+  return known ? mark + known.exposes : "";
 }
 
 function median(values) {
@@ -240,14 +261,18 @@ function median(values) {
   return s.length % 2 ? s[h] : (s[h - 1] + s[h]) / 2;
 }
 
-// Nanoseconds of one method over the timed cases among these: gross median, its distribution-free 95 % interval, floor, net.
+// Nanoseconds of one method over the timed cases among these: gross median, its distribution-free
+// 95 % interval, floor, net.
 function cost(m, lane, among) {
   const timed = D.lanes[lane]?.[D.labels[m]];
   if (!timed) return null;
   if (timed.bins) {
     // the native lane: pairs of its own, already net
     const kept = timed.bins
-      .filter(([q, s, f]) => q === F.question && (!F.sizes || f === F.sizes) && (!F.situation || s === F.situation))
+      .filter(
+        ([q, s, f]) =>
+          q === F.question && (!F.sizes || f === F.sizes) && (!F.situation || s === F.situation),
+      )
       .map((b) => b[3]);
     return kept.length
       ? {

@@ -1,12 +1,23 @@
 // One choice of cases for the whole page; who shows figures listens.
-const F = { question: "", sizes: "", situation: "", bodies: "", band: "", scenario: "", shared: "", lane: "" };
-const LEAST = 0.5; // share of the cases that a method answers, or it does not decide which are common: views.LEAST
+const F = {
+  question: "",
+  sizes: "",
+  situation: "",
+  bodies: "",
+  band: "",
+  scenario: "",
+  shared: "",
+  lane: "",
+};
+// Share of the cases that a method answers, or it does not decide which are common: views.LEAST.
+const LEAST = 0.5;
 const listeners = [];
 let subset = [];
 
 function refilter(changes = {}) {
   Object.assign(F, changes);
-  const there = (column, value) => D.cases[column].some((v, i) => v === value && D.cases.question[i] === F.question);
+  const there = (column, value) =>
+    D.cases[column].some((v, i) => v === value && D.cases.question[i] === F.question);
   for (const [key, column] of [
     ["situation", "situation"],
     ["scenario", "scenario"],
@@ -15,7 +26,14 @@ function refilter(changes = {}) {
     ["bodies", "kind"],
   ])
     if (F[key] && !there(column, F[key])) F[key] = "";
-  subset = casesOf({ question: F.question, sizes: F.sizes, situation: F.situation, bodies: F.bodies, band: F.band, scenario: F.scenario });
+  subset = casesOf({
+    question: F.question,
+    sizes: F.sizes,
+    situation: F.situation,
+    bodies: F.bodies,
+    band: F.band,
+    scenario: F.scenario,
+  });
   if (F.shared) subset = shared(subset);
   drawFilters();
   for (const listen of listeners) listen();
@@ -24,7 +42,9 @@ function refilter(changes = {}) {
 // The cases that every method answered which answers at least half of them.
 function shared(among) {
   const answers = (m, i) => ANSWERED.has(D.outcome[m][i]);
-  const asked = D.labels.map((_, m) => m).filter((m) => among.filter((i) => answers(m, i)).length >= LEAST * among.length);
+  const asked = D.labels
+    .map((_, m) => m)
+    .filter((m) => among.filter((i) => answers(m, i)).length >= LEAST * among.length);
   return among.filter((i) => asked.every((m) => answers(m, i)));
 }
 
@@ -66,14 +86,24 @@ function drawFilters() {
         }),
       ),
       select("Faces", ordered(D.sizes, "sizes"), F.sizes, (v) => refilter({ sizes: v })),
-      select("Situation", ordered(["deep", "near", "apart", "hit", "clear", "uncertain"], "situation"), F.situation, (v) =>
-        refilter({ situation: v }),
+      select(
+        "Situation",
+        ordered(["deep", "near", "apart", "hit", "clear", "uncertain"], "situation"),
+        F.situation,
+        (v) => refilter({ situation: v }),
       ),
-      select("Bodies", ordered(["convex", "union", "mesh"], "kind"), F.bodies, (v) => refilter({ bodies: v })),
+      select("Bodies", ordered(["convex", "union", "mesh"], "kind"), F.bodies, (v) =>
+        refilter({ bodies: v }),
+      ),
       select("Gap / size", ordered(D.bands, "band"), F.band, (v) => refilter({ band: v })),
       select(
         "Scenario",
-        ordered(Object.keys(D.scenarios).concat([...new Set(D.cases.scenario)].filter((s) => !D.scenarios[s])), "scenario"),
+        ordered(
+          Object.keys(D.scenarios).concat(
+            [...new Set(D.cases.scenario)].filter((s) => !D.scenarios[s]),
+          ),
+          "scenario",
+        ),
         F.scenario,
         (v) => refilter({ scenario: v }),
       ),
@@ -88,10 +118,31 @@ function drawFilters() {
             (v) => refilter({ shared: v }),
           )
         : null,
-      Object.keys(D.lanes).length > 1 ? select("Times from", Object.keys(D.lanes), F.lane, (v) => refilter({ lane: v })) : null,
-      el("span", { class: "count", role: "status" }, `${plural(subset.length, "case")}` + uncertainWords()),
+      Object.keys(D.lanes).length > 1
+        ? select("Times from", Object.keys(D.lanes), F.lane, (v) => refilter({ lane: v }))
+        : null,
+      el(
+        "span",
+        { class: "count", role: "status" },
+        `${plural(subset.length, "case")}` + uncertainWords(),
+      ),
       F.sizes || F.situation || F.bodies || F.band || F.scenario || F.shared
-        ? el("button", { type: "button", onclick: () => refilter({ sizes: "", situation: "", bodies: "", band: "", scenario: "", shared: "" }) }, "Clear")
+        ? el(
+            "button",
+            {
+              type: "button",
+              onclick: () =>
+                refilter({
+                  sizes: "",
+                  situation: "",
+                  bodies: "",
+                  band: "",
+                  scenario: "",
+                  shared: "",
+                }),
+            },
+            "Clear",
+          )
         : null,
     ].filter(Boolean),
   );
@@ -101,5 +152,8 @@ function drawFilters() {
 function uncertainWords() {
   const n = subset.filter((i) => D.cases.label[i] === "uncertain").length;
   const touching = subset.filter((i) => D.cases.touching[i]).length;
-  return (n ? `, ${n} without a certified label (in no rate)` : "") + (touching ? `, ${touching} touching (in no rate)` : "");
+  return (
+    (n ? `, ${n} without a certified label (in no rate)` : "") +
+    (touching ? `, ${touching} touching (in no rate)` : "")
+  );
 }

@@ -1,13 +1,36 @@
-// The cases behind a choice: the misses, false alarms and late times of one method, or those of any cell of the page.
+// The cases behind a choice: the misses, false alarms and late times of one method, or those of any
+// cell of the page.
 const PAGE = 24;
 const G = { method: "", kind: "", more: {}, shown: PAGE, list: [] };
-const GALLERY_KINDS = ["miss", "tunnelled", "false alarm", "late", "early", "beyond", "within", "contained", "touching", "failed", "wrong", "right", "all"];
+const GALLERY_KINDS = [
+  "miss",
+  "tunnelled",
+  "false alarm",
+  "late",
+  "early",
+  "beyond",
+  "within",
+  "contained",
+  "touching",
+  "failed",
+  "wrong",
+  "right",
+  "all",
+];
 
 function openCases(to) {
   const questions = new Set(casesOf(to).map((i) => D.cases.question[i]));
   if (!to.question && questions.size === 1) to = { ...to, question: [...questions][0] };
   if (to.question && to.question !== F.question)
-    refilter({ question: to.question, sizes: "", situation: "", bodies: "", shared: "", band: "", scenario: "" });
+    refilter({
+      question: to.question,
+      sizes: "",
+      situation: "",
+      bodies: "",
+      shared: "",
+      band: "",
+      scenario: "",
+    });
   const { method = "", kind = "all", ...more } = to;
   Object.assign(G, {
     method,
@@ -17,9 +40,9 @@ function openCases(to) {
     fixed: true,
   });
   drawGallery();
-  document
-    .getElementById("cases")
-    .scrollIntoView({ behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth" });
+  document.getElementById("cases").scrollIntoView({
+    behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth",
+  });
   document.querySelector("#gallery h3")?.focus({ preventScroll: true });
 }
 
@@ -27,9 +50,14 @@ function drawGallery() {
   if (!G.fixed) G.more = Object.fromEntries(Object.entries(here()).filter(([, v]) => v));
   const answering = D.labels.filter((l, m) => subset.some((i) => ANSWERED.has(D.outcome[m][i])));
   const counts = (label) =>
-    Object.fromEntries(GALLERY_KINDS.map((k) => [k, casesOf({ ...G.more, method: label, kind: k }).length]));
+    Object.fromEntries(
+      GALLERY_KINDS.map((k) => [k, casesOf({ ...G.more, method: label, kind: k }).length]),
+    );
   if (!G.fixed && (!G.method || !answering.includes(G.method)))
-    G.method = answering.find((l) => casesOf({ ...G.more, method: l, kind: "wrong" }).length) || answering[0] || "";
+    G.method =
+      answering.find((l) => casesOf({ ...G.more, method: l, kind: "wrong" }).length) ||
+      answering[0] ||
+      "";
   const found = G.method ? counts(G.method) : {};
   if (!G.fixed && !(found[G.kind] > 0)) G.kind = GALLERY_KINDS.find((k) => found[k]) || "all";
   const link = { ...G.more, kind: G.kind };
@@ -59,7 +87,9 @@ function drawGallery() {
             change({ more, fixed: true });
           },
         },
-        `${{ sizes: "faces", band: "gap / size", tag: "" }[k] ?? k} ${k === "tag" ? `${v[0]}: ${v[1].join(", ")}` : Array.isArray(v) ? v.join(", ") : v} ×`,
+        `${{ sizes: "faces", band: "gap / size", tag: "" }[k] ?? k} ` +
+          `${k === "tag" ? `${v[0]}: ${v[1].join(", ")}` : Array.isArray(v) ? v.join(", ") : v} ` +
+          "×",
       ),
     );
   const box = document.getElementById("gallery"),
@@ -93,12 +123,19 @@ function drawGallery() {
             )
           : null,
         chips,
-        G.fixed ? el("button", { type: "button", onclick: () => change({ fixed: false }) }, "Back to the filter above") : null,
+        G.fixed
+          ? el(
+              "button",
+              { type: "button", onclick: () => change({ fixed: false }) },
+              "Back to the filter above",
+            )
+          : null,
       ),
       el(
         "h3",
         { tabindex: "-1" },
-        `${plural(G.list.length, "case")}: ${[G.method, KIND_WORDS[G.kind], G.more.question].filter(Boolean).join(" · ")}`,
+        `${plural(G.list.length, "case")}: ` +
+          `${[G.method, KIND_WORDS[G.kind], G.more.question].filter(Boolean).join(" · ")}`,
       ),
       el("ol", { class: "cards" }, G.list.slice(0, G.shown).map(card)),
       G.list.length > G.shown
@@ -117,7 +154,8 @@ function drawGallery() {
                   box.querySelectorAll(".card")[at]?.focus();
                 },
               },
-              `Show ${Math.min(PAGE, G.list.length - G.shown)} more of ${(G.list.length - G.shown).toLocaleString("en")}`,
+              `Show ${Math.min(PAGE, G.list.length - G.shown)} more of ` +
+                `${(G.list.length - G.shown).toLocaleString("en")}`,
             ),
           )
         : null,
@@ -125,7 +163,9 @@ function drawGallery() {
         ? el(
             "p",
             { class: "note" },
-            `${plural(undrawn(), "case")} of these without bodies in this page (it holds those of up to 24 cases of each kind for each method, and more while there is room); ofg-bench explain shows any of them.`,
+            `${plural(undrawn(), "case")} of these without bodies in this page (it holds ` +
+              "those of up to 24 cases of each kind for each method, and more while there is " +
+              "room); ofg-bench explain shows any of them.",
           )
         : null,
     ].filter(Boolean),
@@ -164,7 +204,7 @@ function card(i) {
         class: "card",
         "data-case": i,
         onclick: () => {
-          location.hash = `case=${encodeURIComponent(c.case[i])}${G.method ? `&method=${encodeURIComponent(G.method)}` : ""}`;
+          location.hash = caseLink(c.case[i]);
         },
       },
       D.drawn[i]
@@ -188,6 +228,12 @@ function card(i) {
   );
 }
 
+// What the address says of a case that is open.
+function caseLink(name) {
+  const method = G.method ? `&method=${encodeURIComponent(G.method)}` : "";
+  return `case=${encodeURIComponent(name)}${method}`;
+}
+
 // Pictures are drawn one after another by one hidden scene, those in sight first.
 let painter = null,
   queue = [],
@@ -205,7 +251,7 @@ function thumbnails(box) {
     { rootMargin: "300px" },
   );
   queue = [];
-  box.querySelectorAll("canvas").forEach((c) => watch.observe(c));
+  for (const canvas of box.querySelectorAll("canvas")) watch.observe(canvas);
 }
 
 async function paint() {
@@ -230,7 +276,8 @@ async function paint() {
       await new Promise((next) => setTimeout(next));
     }
   } catch (error) {
-    for (const canvas of queue) canvas.replaceWith(el("span", { class: "no-picture" }, "no 3D here"));
+    for (const canvas of queue)
+      canvas.replaceWith(el("span", { class: "no-picture" }, "no 3D here"));
     queue = [];
   } finally {
     painting = false;
@@ -271,11 +318,7 @@ function step(by) {
   const at = G.list.indexOf(Number(document.getElementById("case").dataset.case)),
     next = G.list[at + by];
   if (at >= 0 && next !== undefined) {
-    history.replaceState(
-      null,
-      "",
-      `#case=${encodeURIComponent(D.cases.case[next])}${G.method ? `&method=${encodeURIComponent(G.method)}` : ""}`,
-    );
+    history.replaceState(null, "", `#${caseLink(D.cases.case[next])}`);
     showCase(next, G.method || undefined);
   }
 }
@@ -286,7 +329,8 @@ async function showCase(i, method) {
     at = G.list.indexOf(i);
   box.dataset.case = i;
   delete box.dataset.ready;
-  document.getElementById("case-place").textContent = at >= 0 ? `${at + 1} of ${G.list.length}` : "";
+  document.getElementById("case-place").textContent =
+    at >= 0 ? `${at + 1} of ${G.list.length}` : "";
   if (!box.open) box.showModal();
   openView?.close();
   openView = await caseView(document.getElementById("case-content"), i, method);

@@ -1,4 +1,5 @@
-// Rotations and places in doubles: where a body is at a time, and the plane of a certificate. Nothing is drawn here.
+// Rotations and places in doubles: where a body is at a time, and the plane of a certificate.
+// Nothing is drawn here.
 const rotation = ([w, x, y, z]) => {
   const s = w * w + x * x + y * y + z * z;
   return [
@@ -21,7 +22,8 @@ const turned = (k, angle) => {
 const mul3 = (A, B) => {
   const C = [];
   for (let i = 0; i < 3; i++)
-    for (let j = 0; j < 3; j++) C.push(A[3 * i] * B[j] + A[3 * i + 1] * B[3 + j] + A[3 * i + 2] * B[6 + j]);
+    for (let j = 0; j < 3; j++)
+      C.push(A[3 * i] * B[j] + A[3 * i + 1] * B[3 + j] + A[3 * i + 2] * B[6 + j]);
   return C;
 };
 const apply = (R, v) => [
@@ -37,13 +39,18 @@ const applyT = (R, v) => [
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2],
   norm = (a) => Math.hypot(a[0], a[1], a[2]);
 const plus = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]],
-  cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  cross = (a, b) => [
+    a[1] * b[2] - a[2] * b[1],
+    a[2] * b[0] - a[0] * b[2],
+    a[0] * b[1] - a[1] * b[0],
+  ];
 const unit = (a) => {
   const l = norm(a) || 1;
   return [a[0] / l, a[1] / l, a[2] / l];
 };
 
-// One body's pose at each t of the step, relative to `origin`: it turns by k, theta about its point `about`.
+// One body's pose at each t of the step, relative to `origin`: it turns by k, theta about its point
+// `about`.
 function pathOf(side, i, origin, moving) {
   const c = D.cases,
     of = (name) => c[`${name}${side}`][i],
@@ -62,7 +69,8 @@ function pathOf(side, i, origin, moving) {
   return { turn, pose, theta, moves: moving && Boolean(theta || norm(d)) };
 }
 
-// A case's geometry without any drawing: poses relative to A's at the start, the plane of its certificate at a time.
+// A case's geometry without any drawing: poses relative to A's at the start, the plane of its
+// certificate at a time.
 async function geometryOf(i) {
   const c = D.cases,
     [ia, ib] = D.drawn[i],
@@ -73,7 +81,19 @@ async function geometryOf(i) {
     A = pathOf("", i, origin, moving),
     B = pathOf("_b", i, origin, moving);
   const turns = Boolean(A.theta || B.theta);
-  return { i, a, b, A, B, poseA: A.pose, poseB: B.pose, turns, moving, origin, proof: D.proofs[i] || {} };
+  return {
+    i,
+    a,
+    b,
+    A,
+    B,
+    poseA: A.pose,
+    poseB: B.pose,
+    turns,
+    moving,
+    origin,
+    proof: D.proofs[i] || {},
+  };
 }
 
 function elementVertices(bodyOf, order, from, to) {
@@ -92,25 +112,28 @@ function elementVertices(bodyOf, order, from, to) {
   return found;
 }
 
-// The tightest plane of the proof at time t: normal, middle, clearance, which elements; relative to p_A. null where none is for t.
+// The tightest plane of the proof at time t: normal, middle, clearance, which elements; relative to
+// p_A. null where none is for t.
 function planeAt(g, proof, t) {
   if (!proof?.leaves) return null;
   let best = null,
     count = 0;
   const A = g.poseA(t),
     B = g.poseB(t),
-    turn = { A: g.A.turn(t), B: g.B.turn(t) }; // what a normal that is fixed in a body has turned by
+    // what a normal that is fixed in a body has turned by
+    turn = { A: g.A.turn(t), B: g.B.turn(t) };
   for (const leaf of proof.leaves) {
     const [s, e, frame, nx, ny, nz, a0, a1, b0, b1] = leaf;
     if (t < s || t > e) continue;
     count++;
     const n = unit(turn[frame] ? apply(turn[frame], [nx, ny, nz]) : [nx, ny, nz]);
-    ((leaf.va ||= elementVertices(g.a, proof.order_a, a0, a1) || "all"),
-      (leaf.vb ||= elementVertices(g.b, proof.order_b, b0, b1) || "all"));
+    leaf.va ||= elementVertices(g.a, proof.order_a, a0, a1) || "all";
+    leaf.vb ||= elementVertices(g.b, proof.order_b, b0, b1) || "all";
     const top = extreme(g.a, leaf.va, A, n, 1),
       bottom = extreme(g.b, leaf.vb, B, n, -1),
       gap = bottom.value - top.value;
-    if (!best || gap < best.gap) best = { n, gap, top, bottom, middle: (top.value + bottom.value) / 2, frame, leaf };
+    if (!best || gap < best.gap)
+      best = { n, gap, top, bottom, middle: (top.value + bottom.value) / 2, frame, leaf };
   }
   return best && { ...best, count };
 }
@@ -122,11 +145,17 @@ function extreme(bodyOf, which, pose, n, sign) {
     at = 0;
   const look = (j) => {
     const f = sign * (local[0] * v[3 * j] + local[1] * v[3 * j + 1] + local[2] * v[3 * j + 2]);
-    if (f > value) ((value = f), (at = j));
+    if (f > value) {
+      value = f;
+      at = j;
+    }
   };
   if (which === "all") for (let j = 0, m = v.length / 3; j < m; j++) look(j);
   else which.forEach(look);
-  return { value: sign * value + dot(pose.p, n), point: plus(apply(pose.R, [v[3 * at], v[3 * at + 1], v[3 * at + 2]]), pose.p) };
+  return {
+    value: sign * value + dot(pose.p, n),
+    point: plus(apply(pose.R, [v[3 * at], v[3 * at + 1], v[3 * at + 2]]), pose.p),
+  };
 }
 
 function corners(bodyOf) {
@@ -141,7 +170,8 @@ function corners(bodyOf) {
       if (v[j] > high[k]) high[k] = v[j];
     }
     const all = [];
-    for (let q = 0; q < 8; q++) all.push([q & 1 ? high[0] : low[0], q & 2 ? high[1] : low[1], q & 4 ? high[2] : low[2]]);
+    for (let q = 0; q < 8; q++)
+      all.push([q & 1 ? high[0] : low[0], q & 2 ? high[1] : low[1], q & 4 ? high[2] : low[2]]);
     return all;
   })());
 }

@@ -13,11 +13,17 @@ function head() {
     uncertain = c.label.filter((l) => l === "uncertain").length,
     r = D.run;
   const tiles = [
-    [(D.n - uncertain).toLocaleString("en"), "certified cases" + (uncertain ? `, ${uncertain} uncertain` : "")],
+    [
+      (D.n - uncertain).toLocaleString("en"),
+      "certified cases" + (uncertain ? `, ${uncertain} uncertain` : ""),
+    ],
     [D.labels.length, "methods and configurations"],
     [new Set(c.scenario).size, "scenarios"],
     [(D.n * D.labels.length).toLocaleString("en"), "questions asked"],
-    [r.noise === null ? "–" : percent(r.noise), r.noise > 0.25 ? "timing noise: disturbed" : "timing noise"],
+    [
+      r.noise === null ? "–" : percent(r.noise),
+      r.noise > 0.25 ? "timing noise: disturbed" : "timing noise",
+    ],
   ];
   return el(
     "header",
@@ -45,7 +51,8 @@ function head() {
     el(
       "p",
       { class: "intro" },
-      "Every label is certified: a proof of each answer is stored with its case and was checked by a program that knows no engine. A ",
+      "Every label is certified: a proof of each answer is stored with its case and was " +
+        "checked by a program that knows no engine. A ",
       el("b", {}, "miss"),
       " is a certified hit answered clear, a ",
       el("b", {}, "false alarm"),
@@ -69,8 +76,8 @@ function themeButton() {
       "aria-label": "switch between light and dark",
       onclick: () => {
         const dark =
-          (document.documentElement.dataset.theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) ===
-          "dark";
+          (document.documentElement.dataset.theme ||
+            (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
         document.documentElement.dataset.theme = dark ? "light" : "dark";
         recolour();
       },
@@ -91,14 +98,20 @@ function runPage() {
   const app = document.getElementById("app");
   app.replaceChildren(
     head(),
-    el("div", { id: "filters", class: "filters", role: "group", "aria-label": "Which cases the figures are of" }),
+    el("div", {
+      id: "filters",
+      class: "filters",
+      role: "group",
+      "aria-label": "Which cases the figures are of",
+    }),
     el(
       "main",
       { id: "main" },
       section(
         "board",
         "Leaderboard",
-        "Over the certified cases that a method answered. Sort by any column; methods that answer different cases are not strictly comparable: see “Answered”.",
+        "Over the certified cases that a method answered. Sort by any column; methods that " +
+          "answer different cases are not strictly comparable: see “Answered”.",
         el("div", { id: "board-table" }),
       ),
       section(
@@ -120,7 +133,8 @@ function runPage() {
       section(
         "tables",
         "Tables of the run",
-        "As saved in its folder tables/ (CSV, Markdown, LaTeX), over all cases whatever the filter above; rates with 95 % Wilson intervals.",
+        "As saved in its folder tables/ (CSV, Markdown, LaTeX), over all cases whatever the " +
+          "filter above; rates with 95 % Wilson intervals.",
         el("div", { id: "saved" }),
       ),
       section("run", "What was run", "", el("div", { id: "run-facts" })),
@@ -139,14 +153,22 @@ function runPage() {
 
 function follow() {
   const match = location.hash.match(/^#case=([^&]+)(?:&method=(.*))?$/);
-  if (match) showCase(D.place.get(decodeURIComponent(match[1])), match[2] ? decodeURIComponent(match[2]) : undefined);
+  if (match)
+    showCase(
+      D.place.get(decodeURIComponent(match[1])),
+      match[2] ? decodeURIComponent(match[2]) : undefined,
+    );
 }
 
 async function casePage() {
   const app = document.getElementById("app"),
     main = el("main", { id: "main", class: "single" });
   app.replaceChildren(
-    el("header", { class: "top" }, el("div", { class: "bar-top" }, el("strong", {}, "ofg-bench explain"), themeButton())),
+    el(
+      "header",
+      { class: "top" },
+      el("div", { class: "bar-top" }, el("strong", {}, "ofg-bench explain"), themeButton()),
+    ),
     main,
   );
   openView = await caseView(main, 0);
@@ -165,7 +187,8 @@ readData()
         el(
           "p",
           { class: "notice" },
-          `This page could not be drawn: ${error.message}. It needs a browser of 2023 or later (DecompressionStream, WebGL).`,
+          `This page could not be drawn: ${error.message}. It needs a browser of 2023 or ` +
+            "later (DecompressionStream, WebGL).",
         ),
       );
     throw error;

@@ -68,10 +68,12 @@ function drawPivot() {
     const r = rates(m, subset);
     if (r.answered) rows.push({ m, label, cells: groups.map((g) => rates(m, g.cases)) });
   });
-  const columns = [{ title: "Method", left: true, key: (x) => x.label, cell: (x) => x.label }].concat(
+  const columns = [
+    { title: "Method", left: true, key: (x) => x.label, cell: (x) => x.label },
+  ].concat(
     groups.map((g, k) => ({
       title: across === "level" ? number(g.name, 4) : String(g.name),
-      note: `${plural(g.cases.length, "case")}${D.scenarios[g.name] ? ": " + D.scenarios[g.name].exposes : ""}`,
+      note: `${plural(g.cases.length, "case")}${exposed(": ", g.name)}`,
       key: (x) => {
         const [n, total] = WHAT[what].of(x.cells[k]);
         return total ? n / total : NaN;
@@ -90,9 +92,16 @@ function drawPivot() {
     })),
   );
   const table = document.getElementById("pivot-table");
-  table.replaceChildren(sortable(columns, rows, { id: "pivot", caption: `${WHAT[what].words}, ${F.question}` }));
+  table.replaceChildren(
+    sortable(columns, rows, { id: "pivot", caption: `${WHAT[what].words}, ${F.question}` }),
+  );
   if (what === "answered" || what === "late") return;
   table.append(
-    el("p", { class: "note" }, "Each cell: how many of how many, with the 95 % Wilson interval below. Shading follows the rate."),
+    el(
+      "p",
+      { class: "note" },
+      "Each cell: how many of how many, with the 95 % Wilson interval below. Shading follows " +
+        "the rate.",
+    ),
   );
 }

@@ -1,17 +1,31 @@
-// Accuracy against speed: one curve per method over its parameter, colour by engine, symbol by method; below it the same points as the leaderboard.
+// Accuracy against speed: one curve per method over its parameter, colour by engine, symbol by
+// method; below it the same points as the leaderboard.
 const MEASURES = {
   "wrong answers": { of: (r) => [r.wrong, r.judged], kind: "wrong" },
   misses: { of: (r) => [r.misses, r.hits], kind: "miss" },
   "false alarms": { of: (r) => [r.alarms, r.clears], kind: "false alarm" },
   tunnelled: { of: (r) => [r.tunnelled, r.canTunnel], kind: "tunnelled" },
 };
-const SYMBOLS = ["circle", "square", "diamond", "triangle-up", "triangle-down", "pentagon", "x", "star", "hexagon", "cross"];
+const SYMBOLS = [
+  "circle",
+  "square",
+  "diamond",
+  "triangle-up",
+  "triangle-down",
+  "pentagon",
+  "x",
+  "star",
+  "hexagon",
+  "cross",
+];
 const GRAIN = 50; // ns: what the clock cannot tell from nothing is drawn there
 let measure = "wrong answers",
   clockSide = "net";
 
-const squash = (rate) => Math.asinh(100 * rate); // linear up to 1 %, then logarithmic: 0 can be drawn
-const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name.slice(4, -1)).trim();
+// Linear up to 1 %, then logarithmic: 0 can be drawn.
+const squash = (rate) => Math.asinh(100 * rate);
+const colour = (name) =>
+  getComputedStyle(document.documentElement).getPropertyValue(name.slice(4, -1)).trim();
 
 function drawPlotControls() {
   document.getElementById("plot-controls").replaceChildren(
@@ -52,28 +66,27 @@ async function drawPlot() {
     const name = D.methods[m].name,
       curve = D.methods[m].curve;
     if (!families.has(curve)) families.set(curve, []);
-    families
-      .get(curve)
-      .push({
-        name,
-        m,
-        label,
-        short: label.split(" ").slice(1).join(" "),
-        count,
-        total,
-        rate: count / total,
-        ci: wilson(count, total),
-        us: Math.max(c[clockSide], GRAIN) / 1e3,
-        cost: c,
-        whole: r.answered === r.asked,
-        r,
-      });
+    families.get(curve).push({
+      name,
+      m,
+      label,
+      short: label.split(" ").slice(1).join(" "),
+      count,
+      total,
+      rate: count / total,
+      ci: wilson(count, total),
+      us: Math.max(c[clockSide], GRAIN) / 1e3,
+      cost: c,
+      whole: r.answered === r.asked,
+      r,
+    });
   });
   const words = document.getElementById("plot-words");
   if (!families.size) {
     box.hidden = true;
     words.textContent = Object.keys(D.lanes).length
-      ? "No method has both a rate and a time for these cases: fewer are timed than asked. Widen the filter."
+      ? "No method has both a rate and a time for these cases: fewer are timed than asked. " +
+        "Widen the filter."
       : "This run took no times.";
     return;
   }
@@ -124,7 +137,11 @@ async function drawPlot() {
       },
       hovertext: points.map(
         (p) =>
-          `<b>${p.label}</b><br>${measure} ${p.count}/${p.total} (${interval(p.ci)})<br>net ${microseconds(p.cost.net)} µs, gross ${microseconds(p.cost.gross)} µs over ${p.cost.n} ${p.cost.bins ? "bins of pairs of the native lane" : "cases"}<br>${p.whole ? "answers all of these cases" : `answers ${p.r.answered} of ${p.r.asked}`}`,
+          `<b>${p.label}</b><br>${measure} ${p.count}/${p.total} (${interval(p.ci)})<br>net ` +
+          `${microseconds(p.cost.net)} µs, gross ${microseconds(p.cost.gross)} µs over ` +
+          `${p.cost.n} ` +
+          `${p.cost.bins ? "bins of pairs of the native lane" : "cases"}<br>` +
+          (p.whole ? "answers all of these cases" : `answers ${p.r.answered} of ${p.r.asked}`),
       ),
       hoverinfo: "text",
     });
@@ -180,18 +197,25 @@ async function drawPlot() {
   if (!box.dataset.listens) {
     box.dataset.listens = "yes";
     box.on("plotly_click", ({ points: [p] }) => {
-      if (p?.customdata) openCases({ ...here(), method: p.customdata, kind: MEASURES[measure].kind });
+      if (p?.customdata)
+        openCases({ ...here(), method: p.customdata, kind: MEASURES[measure].kind });
     });
   }
   words.textContent =
     (F.lane === "native"
-      ? "Native times are of the libraries in one C++ loop, on pairs of their own of these sizes (experiments/native.py); rates are of this run's cases. "
+      ? "Native times are of the libraries in one C++ loop, on pairs of their own of these " +
+        "sizes (experiments/native.py); rates are of this run's cases. "
       : "") +
-    `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: answers only part of them, and is not on the Pareto front (choose the cases that all answer, above, to compare all). At ≤ 0.05: no dearer than the method's own floor. Whiskers: 95 % Wilson intervals. Labels that would cover others are left out. A click on a point shows the cases behind it; the leaderboard above holds the same figures.`;
+    `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: ` +
+    "answers only part of them, and is not on the Pareto front (choose the cases that all " +
+    "answer, above, to compare all). At ≤ 0.05: no dearer than the method's own floor. " +
+    "Whiskers: 95 % Wilson intervals. Labels that would cover others are left out. A click " +
+    "on a point shows the cases behind it; the leaderboard above holds the same figures.";
 }
 
-// A corner of its point for each label where it covers no other label and no point, as nearly as is known before drawing; a label without
-// one is left out, and shown like every other when the pointer is on its point.
+// A corner of its point for each label where it covers no other label and no point, as nearly as is
+// known before drawing; a label without one is left out, and shown like every other when the
+// pointer is on its point.
 function placeLabels(points, width) {
   const xs = points.map((p) => Math.log10(p.us)),
     low = Math.min(...xs),
@@ -203,9 +227,15 @@ function placeLabels(points, width) {
     const [x, y] = spot(p),
       long = 6 * p.short.length;
     for (const corner of ["top right", "top left", "bottom right", "bottom left"]) {
-      const [x0, y0] = [corner.endsWith("right") ? x + 5 : x - 5 - long, corner.startsWith("top") ? y - 15 : y + 4];
+      const [x0, y0] = [
+        corner.endsWith("right") ? x + 5 : x - 5 - long,
+        corner.startsWith("top") ? y - 15 : y + 4,
+      ];
       const [x1, y1] = [x0 + long, y0 + 11];
-      if (taken.some(([q, [a0, a1, b0, b1]]) => q !== p && x0 < a1 && a0 < x1 && y0 < b1 && b0 < y1)) continue;
+      if (
+        taken.some(([q, [a0, a1, b0, b1]]) => q !== p && x0 < a1 && a0 < x1 && y0 < b1 && b0 < y1)
+      )
+        continue;
       placed.set(p, corner);
       taken.push([null, [x0, x1, y0, y1]]);
       break;
@@ -214,7 +244,14 @@ function placeLabels(points, width) {
   return placed;
 }
 
-const here = () => ({ question: F.question, sizes: F.sizes, situation: F.situation, bodies: F.bodies, band: F.band, scenario: F.scenario });
+const here = () => ({
+  question: F.question,
+  sizes: F.sizes,
+  situation: F.situation,
+  bodies: F.bodies,
+  band: F.band,
+  scenario: F.scenario,
+});
 
 function pareto(points) {
   const front = [];

@@ -6,13 +6,17 @@ function drawRun() {
   const noise =
     r.noise === null || r.noise === undefined
       ? "no times were taken"
-      : `90th percentile of the probe ${percent(r.noise)} above its median, worst bin${r.noise > 0.25 ? ": this run was disturbed, doubt its times" : ""}`;
+      : `90th percentile of the probe ${percent(r.noise)} above its median, worst ` +
+        `bin${r.noise > 0.25 ? ": this run was disturbed, doubt its times" : ""}`;
   const facts = [
     ["About", r.about || "–"],
     ["Started, finished (UTC)", `${stamp(r.started)}, ${stamp(r.finished)}`],
     ["Seed", r.config?.seed],
     ["Commit", r.commit],
-    ["Processor", `${before.processor ?? "–"}, ${before.cores ?? "?"} cores, ${before.mhz ?? "?"} MHz`],
+    [
+      "Processor",
+      `${before.processor ?? "–"}, ${before.cores ?? "?"} cores, ${before.mhz ?? "?"} MHz`,
+    ],
     ["Memory", `${before.memory_gib ?? "?"} GiB`],
     ["System", before.system],
     ["Python", before.python],
@@ -40,8 +44,18 @@ function drawRun() {
   const methods = sortable(
     [
       { title: "Method", left: true, key: (x) => x.label, cell: (x) => x.label },
-      { title: "Configuration", left: true, key: (x) => x.configuration, cell: (x) => x.configuration },
-      { title: "Engine", left: true, key: (x) => x.engine, cell: (x) => `${x.engine} ${x.version || ""}` },
+      {
+        title: "Configuration",
+        left: true,
+        key: (x) => x.configuration,
+        cell: (x) => x.configuration,
+      },
+      {
+        title: "Engine",
+        left: true,
+        key: (x) => x.engine,
+        cell: (x) => `${x.engine} ${x.version || ""}`,
+      },
       { title: "Answers", left: true, cell: (x) => x.answers.join(", ") },
       { title: "Bodies", left: true, cell: (x) => x.bodies.join(", ") },
       {
@@ -51,7 +65,11 @@ function drawRun() {
         cell: (x) => (x.solid === null ? "–" : x.solid ? "solids" : "surfaces"),
       },
       { title: "Tolerance", left: true, cell: (x) => x.tolerance },
-      { title: "Guarantee, by its documentation", left: true, cell: (x) => el("span", { class: "wide" }, x.guarantee) },
+      {
+        title: "Guarantee, by its documentation",
+        left: true,
+        cell: (x) => el("span", { class: "wide" }, x.guarantee),
+      },
     ],
     D.methods,
     { caption: "Methods, as they declare themselves" },
@@ -59,9 +77,19 @@ function drawRun() {
   document
     .getElementById("run-facts")
     .replaceChildren(
-      el("div", { class: "columns" }, list, el("div", { class: "scroll", tabindex: "0" }, versions)),
+      el(
+        "div",
+        { class: "columns" },
+        list,
+        el("div", { class: "scroll", tabindex: "0" }, versions),
+      ),
       methods,
-      el("details", {}, el("summary", {}, "Configuration"), el("pre", { tabindex: "0" }, JSON.stringify(r.config, null, 1))),
+      el(
+        "details",
+        {},
+        el("summary", {}, "Configuration"),
+        el("pre", { tabindex: "0" }, JSON.stringify(r.config, null, 1)),
+      ),
     );
 }
 

@@ -13,7 +13,8 @@ function drawTables() {
   document.getElementById("saved").replaceChildren(
     ...D.tables.map((t) => {
       const numeric = t.columns.map(
-        (_, k) => k > 0 && t.rows.every((r) => !/^[a-z]/i.test(r[k]) || r[k] === "all" || r[k] === "nan"),
+        (_, k) =>
+          k > 0 && t.rows.every((r) => !/^[a-z]/i.test(r[k]) || r[k] === "all" || r[k] === "nan"),
       );
       const details = el("details", { id: `table-${t.name}` }, el("summary", {}, t.title));
       const fill = () => {
@@ -33,7 +34,9 @@ function drawTables() {
                 el(
                   "tr",
                   {},
-                  t.columns.map((c, k) => el("th", { scope: "col", class: numeric[k] ? "" : "left" }, c)),
+                  t.columns.map((c, k) =>
+                    el("th", { scope: "col", class: numeric[k] ? "" : "left" }, c),
+                  ),
                 ),
               ),
               el(
@@ -48,7 +51,12 @@ function drawTables() {
                         [count, total] = value.split("/").map(Number);
                       const content = [
                         to ? link(to, value) : value,
-                        to && total > 0 && RATES.has(to.kind) && !t.columns[k + 1]?.startsWith("95 %") ? el("small", {}, interval(wilson(count, total))) : null,
+                        to &&
+                        total > 0 &&
+                        RATES.has(to.kind) &&
+                        !t.columns[k + 1]?.startsWith("95 %")
+                          ? el("small", {}, interval(wilson(count, total)))
+                          : null,
                       ];
                       return k
                         ? el("td", { class: numeric[k] ? "" : "left" }, content)

@@ -7,12 +7,16 @@ function el(tag, attributes = {}, ...children) {
     else if (key === "class") node.className = value;
     else node.setAttribute(key, value === true ? "" : value);
   }
-  node.append(...children.flat(Infinity).filter((c) => c !== null && c !== undefined && c !== false));
+  node.append(
+    ...children.flat(Infinity).filter((c) => c !== null && c !== undefined && c !== false),
+  );
   return node;
 }
 
-const percent = (x) => (x === 0 ? "0" : 100 * x < 0.1 ? (100 * x).toPrecision(1) : (100 * x).toFixed(1)) + " %";
-const interval = ([low, high]) => (Number.isNaN(low) ? "" : `${(100 * low).toFixed(1)}–${(100 * high).toFixed(1)} %`);
+const percent = (x) =>
+  (x === 0 ? "0" : 100 * x < 0.1 ? (100 * x).toPrecision(1) : (100 * x).toFixed(1)) + " %";
+const interval = ([low, high]) =>
+  Number.isNaN(low) ? "" : `${(100 * low).toFixed(1)}–${(100 * high).toFixed(1)} %`;
 const share = (count, total) => (total ? `${count}/${total}` : "–");
 
 function number(x, digits = 3) {
@@ -26,7 +30,8 @@ function number(x, digits = 3) {
   return text.replace(/-/g, "\u2212");
 }
 
-const microseconds = (ns) => (ns < 1e4 ? (ns / 1e3).toFixed(2) : ns < 1e5 ? (ns / 1e3).toFixed(1) : (ns / 1e3).toFixed(0));
+const microseconds = (ns) =>
+  ns < 1e4 ? (ns / 1e3).toFixed(2) : ns < 1e5 ? (ns / 1e3).toFixed(1) : (ns / 1e3).toFixed(0);
 const plural = (n, one, many = one + "s") => `${n.toLocaleString("en")} ${n === 1 ? one : many}`;
 
 const MARKS = { r: "✓", m: "✗", f: "!", c: "≈", b: "·", n: "?", u: "–", e: "⚠", t: "⏱", ".": "" };
@@ -46,7 +51,8 @@ function select(label, options, value, change) {
   return el("label", { class: "choice" }, el("span", {}, label), box);
 }
 
-// A table whose columns sort by a click on their heads. columns: {title, key(row) for sorting, cell(row) -> node or text, left, note}.
+// A table whose columns sort by a click on their heads. columns: {title, key(row) for sorting,
+// cell(row) -> node or text, left, note}.
 function sortable(columns, rows, { start, descending = false, caption, id } = {}) {
   let by = start,
     down = descending;
@@ -98,7 +104,11 @@ function sortable(columns, rows, { start, descending = false, caption, id } = {}
                       },
                     },
                     c.title,
-                    el("span", { class: "arrow", "aria-hidden": "true" }, k === by ? (down ? " ↓" : " ↑") : ""),
+                    el(
+                      "span",
+                      { class: "arrow", "aria-hidden": "true" },
+                      k === by ? (down ? " ↓" : " ↑") : "",
+                    ),
                   )
                 : c.title,
             ),
@@ -124,5 +134,9 @@ function sortable(columns, rows, { start, descending = false, caption, id } = {}
     );
   };
   draw();
-  return el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": caption || "table" }, table);
+  return el(
+    "div",
+    { class: "scroll", tabindex: "0", role: "region", "aria-label": caption || "table" },
+    table,
+  );
 }

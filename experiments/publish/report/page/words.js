@@ -1,5 +1,17 @@
-// What is said of one case in words: its facts, its certificate, what OFG looked at, every method's verdict.
-const moves = (i, side) => Boolean(norm(D.cases[`displacement${side}`][i]) || D.cases[`angle${side}`][i]);
+// What is said of one case in words: its facts, its certificate, what OFG looked at, every method's
+// verdict.
+
+// How OFG came to its hit: answer.found.
+const FOUND_WORDS = {
+  start: "faces that meet at the start",
+  end: "faces that meet at the end",
+  "edge-face": "a virtual edge of A meets a face of B",
+  "face-edge": "a virtual edge of B meets a face of A",
+  "edge-edge": "a moving edge meets an edge",
+  inside: "one body lies inside the other",
+};
+const moves = (i, side) =>
+  Boolean(norm(D.cases[`displacement${side}`][i]) || D.cases[`angle${side}`][i]);
 
 // What one body does in the step; side: "" for A, "_b" for B.
 function motionWords(i, side) {
@@ -7,7 +19,10 @@ function motionWords(i, side) {
     d = norm(of("displacement")),
     about = of("about");
   if (!moves(i, side)) return "rests";
-  const turn = of("angle") ? `turns ${number(of("angle"))} rad${norm(about) ? ` about its point (${about.map((x) => number(x)).join(", ")})` : ""}` : "";
+  const turn = of("angle")
+    ? `turns ${number(of("angle"))} ` +
+      `rad${norm(about) ? ` about its point (${about.map((x) => number(x)).join(", ")})` : ""}`
+    : "";
   return [d ? `moves ${number(d)}` : "", turn].filter(Boolean).join(", ");
 }
 
@@ -18,7 +33,10 @@ function facts(i) {
     drawn = D.drawn[i];
   const bodyWords = (k) => {
     const b = D.bodies[drawn[k]];
-    return `${b.name}, ${b.kind}${b.pieces ? ` of ${b.pieces.length} pieces` : ""}, ${plural(b.f[2], "face")}${b.rounded ? " (drawn rounded to float32)" : ""}`;
+    return (
+      `${b.name}, ${b.kind}${b.pieces ? ` of ${b.pieces.length} pieces` : ""}, ` +
+      `${plural(b.f[2], "face")}${b.rounded ? " (drawn rounded to float32)" : ""}`
+    );
   };
   const rows = [
     [
@@ -29,7 +47,12 @@ function facts(i) {
       sweep && hit ? ` · start ${c.start[i]}, end ${c.end[i]}` : "",
     ],
     sweep && hit && c.t_lo[i] !== null
-      ? ["Time of impact", c.t_lo[i] === c.t_hi[i] ? `${c.t_hi[i]} (exact to double)` : `[${c.t_lo[i]}, ${c.t_hi[i]}]`]
+      ? [
+          "Time of impact",
+          c.t_lo[i] === c.t_hi[i]
+            ? `${c.t_hi[i]} (exact to double)`
+            : `[${c.t_lo[i]}, ${c.t_hi[i]}]`,
+        ]
       : null,
     c.gap[i] === null
       ? null
@@ -53,12 +76,22 @@ function facts(i) {
     "div",
     {},
     el("h2", { class: "case-name" }, c.case[i]),
-    el("p", { class: "note" }, `${c.question[i]}${D.scenarios[c.scenario[i]] ? " · " + D.scenarios[c.scenario[i]].exposes : ""}`),
+    el("p", { class: "note" }, `${c.question[i]}${exposed(" · ", c.scenario[i])}`),
     el(
       "dl",
       { class: "facts" },
       rows.map(([k, ...v]) => [el("dt", {}, k), el("dd", {}, v)]),
     ),
+  );
+}
+
+function planeWords(g, plane) {
+  const frame = { A: "turning with A", B: "turning with B" }[plane.frame] || "fixed in space";
+  const parts = g.a.kind === "union" || g.b.kind === "union" ? "pieces" : "faces";
+  const groups = `; it is the tightest of ${plane.count} between groups of ${parts}`;
+  return (
+    `Certified: this plane (${frame}) separates them now${plane.count > 1 ? groups : ""}. ` +
+    `Clearance along it, in doubles: ${number(plane.gap)}.`
   );
 }
 
@@ -71,8 +104,7 @@ function proofWords(i, g, { plane, point }, t) {
   if (c.label[i] === "uncertain") return `No certificate: ${c.reason[i]}`;
   if (D.run.refused) return `Stated, not certified: ${D.run.refused}.`;
   if (point) return "Certified: the marked point lies inside both bodies at this time.";
-  if (plane)
-    return `Certified: this plane (${{ A: "turning with A", B: "turning with B" }[plane.frame] || "fixed in space"}) separates them now${plane.count > 1 ? `; it is the tightest of ${plane.count} between groups of ${g.a.kind === "union" || g.b.kind === "union" ? "pieces" : "faces"}` : ""}. Clearance along it, in doubles: ${number(plane.gap)}.`;
+  if (plane) return planeWords(g, plane);
   if (c.label[i] === "hit" && t > (c.t_lo[i] ?? 0))
     return t < c.t_hi[i]
       ? "Between the certified ends of the bracket."
@@ -83,7 +115,8 @@ function proofWords(i, g, { plane, point }, t) {
 function timeMarks(i, label, method) {
   const c = D.cases,
     marks = [];
-  if (c.label[i] === "hit" && c.t_hi[i] !== null) marks.push([c.t_hi[i], "truth", "certified impact"]);
+  if (c.label[i] === "hit" && c.t_hi[i] !== null)
+    marks.push([c.t_hi[i], "truth", "certified impact"]);
   for (const [l, kind] of [
     [method, "told"],
     [label, "told"],
@@ -92,7 +125,9 @@ function timeMarks(i, label, method) {
       t = m === undefined ? undefined : D.time[m].get(i);
     if (t !== undefined && !marks.some(([x, , w]) => w === l)) marks.push([t, kind, l]);
   }
-  return marks.map(([t, kind, words]) => el("i", { class: kind, style: `left:${100 * t}%`, title: `${words}: ${t}` }));
+  return marks.map(([t, kind, words]) =>
+    el("i", { class: kind, style: `left:${100 * t}%`, title: `${words}: ${t}` }),
+  );
 }
 
 function ofgWords(i, label, x) {
@@ -102,10 +137,17 @@ function ofgWords(i, label, x) {
     sa = D.bodies[x.bodies[0]],
     sb = D.bodies[x.bodies[1]],
     lines = [];
-  const of = (n, b, piece) => `${n} of the ${b.pieces && piece >= 0 ? b.pieces[piece][1] : b.f[2]} faces`;
+  const of = (n, b, piece) =>
+    `${n} of the ${b.pieces && piece >= 0 ? b.pieces[piece][1] : b.f[2]} faces`;
   lines.push(
-    `It took ${of(x.na, sa, x.pieces[0])} of A${sa.pieces ? ` (piece ${x.pieces[0] + 1} of ${sa.pieces.length})` : ""} and ${of(x.nb, sb, x.pieces[1])} of B${sb.pieces ? ` (piece ${x.pieces[1] + 1} of ${sb.pieces.length})` : ""}` +
-      (x.parts > 1 ? `, in the part of the step from ${number(x.window[0])} to ${number(x.window[1])} (one of ${x.parts})` : "") +
+    `It took ${of(x.na, sa, x.pieces[0])} of ` +
+      `A${sa.pieces ? ` (piece ${x.pieces[0] + 1} of ${sa.pieces.length})` : ""} and ` +
+      `${of(x.nb, sb, x.pieces[1])} of ` +
+      `B${sb.pieces ? ` (piece ${x.pieces[1] + 1} of ${sb.pieces.length})` : ""}` +
+      (x.parts > 1
+        ? `, in the part of the step from ${number(x.window[0])} to ${number(x.window[1])} ` +
+          `(one of ${x.parts})`
+        : "") +
       (moving
         ? {
             1: ", chosen at the start",
@@ -116,33 +158,59 @@ function ofgWords(i, label, x) {
       ".",
   );
   if (x.bodies.some((b, k) => b !== D.drawn[i][k]))
-    lines.push("It was asked about CoACD's pieces of the mesh, which are another body than the mesh near its surface.");
-  const m = D.method.get(label), letter = D.outcome[m]?.[i], truth = truthOf(i, m).label, hit = truth === "hit";
-  if ((letter === "r" || MISS.has(letter) || ALARM.has(letter)) && x.hit !== (letter === "r" ? hit : ALARM.has(letter)))
+    lines.push(
+      "It was asked about CoACD's pieces of the mesh, which are another body than the mesh " +
+        "near its surface.",
+    );
+  const m = D.method.get(label),
+    letter = D.outcome[m]?.[i],
+    truth = truthOf(i, m).label,
+    hit = truth === "hit";
+  if (
+    (letter === "r" || MISS.has(letter) || ALARM.has(letter)) &&
+    x.hit !== (letter === "r" ? hit : ALARM.has(letter))
+  )
     lines.push("The OFG that made this page answers otherwise than the one of the run.");
   if (x.hit) {
     lines.push(
-      `It answered hit${x.time !== null ? ` at t = ${number(x.time, 8)}` : ""}: ${{ start: "faces that meet at the start", end: "faces that meet at the end", "edge-face": "a virtual edge of A meets a face of B", "face-edge": "a virtual edge of B meets a face of A", "edge-edge": "a moving edge meets an edge", inside: "one body lies inside the other" }[x.found] || x.found}${x.met ? ` (face ${x.met[0]} of A, face ${x.met[1]} of B)` : ""}.`,
+      `It answered hit${x.time !== null ? ` at t = ${number(x.time, 8)}` : ""}: ` +
+        `${FOUND_WORDS[x.found] || x.found}` +
+        `${x.met ? ` (face ${x.met[0]} of A, face ${x.met[1]} of B)` : ""}.`,
     );
     if (truth === "clear")
-      lines.push(c.touching[i] ? "The certificate says that the surfaces share a point and no more." : "The certificate says that nothing meets.");
+      lines.push(
+        c.touching[i]
+          ? "The certificate says that the surfaces share a point and no more."
+          : "The certificate says that nothing meets.",
+      );
   } else if (truth === "hit") {
-    lines.push(x.stopped ? `It answered clear before it looked at a face: ${x.stopped}.` : "It answered clear.");
+    lines.push(
+      x.stopped
+        ? `It answered clear before it looked at a face: ${x.stopped}.`
+        : "It answered clear.",
+    );
     if (x.should) {
       const [pa, pb] = x.should.places,
         taken = ["a", "b"].map((s, k) =>
-          x[s].length ? x[s].includes(x.should.faces[k]) : x.should.places[k] !== null && x.should.places[k] <= x[`n${s}`],
+          x[s].length
+            ? x[s].includes(x.should.faces[k])
+            : x.should.places[k] !== null && x.should.places[k] <= x[`n${s}`],
         );
       const place = (p, is, side) =>
         p === null
           ? `${side}'s belongs to a piece that was not asked`
           : `${side}'s is the ${ordinal(p)} nearest, ${is ? "taken" : "not taken"}`;
       lines.push(
-        `Faces that do meet${moving ? ` at t = ${number(x.should.time, 6)}` : ""}: ${x.should.faces[0]} of A and ${x.should.faces[1]} of B. ${place(pa, taken[0], "A")}; ${place(pb, taken[1], "B")}.`,
+        `Faces that do meet${moving ? ` at t = ${number(x.should.time, 6)}` : ""}: ` +
+          `${x.should.faces[0]} of A and ${x.should.faces[1]} of B. ` +
+          `${place(pa, taken[0], "A")}; ${place(pb, taken[1], "B")}.`,
       );
       if (taken[0] && taken[1] && moving && !x.stopped)
         lines.push(
-          `Both were taken, but at the start, at the end and along the virtual edges (straight paths of the vertices of A${x.vertices_b ? " and B" : ""}) they do not touch: edges against edges in motion, and what curves, are left out as the article has it.`,
+          "Both were taken, but at the start, at the end and along the virtual edges " +
+            `(straight paths of the vertices of A${x.vertices_b ? " and B" : ""}) they do not ` +
+            "touch: edges against edges in motion, and what curves, are left out as the " +
+            "article has it.",
         );
     } else
       lines.push(
@@ -158,8 +226,11 @@ function ofgWords(i, label, x) {
   );
 }
 
-const ordinal = (n) =>
-  `${n.toLocaleString("en")}${n % 100 > 10 && n % 100 < 14 ? "th" : ["th", "st", "nd", "rd"][n % 10] || "th"}`;
+function ordinal(n) {
+  const teen = n % 100 > 10 && n % 100 < 14;
+  const ending = teen ? "th" : ["th", "st", "nd", "rd"][n % 10] || "th";
+  return `${n.toLocaleString("en")}${ending}`;
+}
 
 function ofPieces(i, m) {
   const own = D.truth[m].get(i);
@@ -186,24 +257,44 @@ function verdicts(i, method) {
     el("h3", {}, "What every method said"),
     sortable(
       [
-        { title: "Method", left: true, key: (r) => r.label, cell: (r) => (r.label === method ? el("b", {}, r.label) : r.label) },
+        {
+          title: "Method",
+          left: true,
+          key: (r) => r.label,
+          cell: (r) => (r.label === method ? el("b", {}, r.label) : r.label),
+        },
         {
           title: "Verdict",
           left: true,
           key: (r) => rank[r.letter],
-          cell: (r) => [badge(r.letter), r.detail ? el("small", {}, r.detail) : "", ofPieces(i, r.m)],
+          cell: (r) => [
+            badge(r.letter),
+            r.detail ? el("small", {}, r.detail) : "",
+            ofPieces(i, r.m),
+          ],
         },
-        sweep && { title: "Time", key: (r) => r.time, cell: (r) => (r.time === undefined ? "–" : number(r.time, 6)) },
+        sweep && {
+          title: "Time",
+          key: (r) => r.time,
+          cell: (r) => (r.time === undefined ? "–" : number(r.time, 6)),
+        },
         sweep && {
           title: "Error",
           note: "beyond the certified bracket, as a share of the step: late is positive",
           key: (r) => r.error,
-          cell: (r) => (r.error === undefined ? "–" : r.error === 0 ? "0" : (r.error > 0 ? "+" : "") + number(r.error, 2)),
+          cell: (r) =>
+            r.error === undefined
+              ? "–"
+              : r.error === 0
+                ? "0"
+                : (r.error > 0 ? "+" : "") + number(r.error, 2),
         },
       ].filter(Boolean),
       rows,
       { start: 1, id: "verdicts", caption: "" },
     ),
-    silent ? el("p", { class: "note" }, `${silent} more do not answer ${D.cases.question[i]}.`) : "",
+    silent
+      ? el("p", { class: "note" }, `${silent} more do not answer ${D.cases.question[i]}.`)
+      : "",
   );
 }

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from experiments.analysis import metrics
+from experiments.analysis import costs, metrics, outcome
 from experiments.cases.families import get
 from experiments.cases.label import Truth
 from experiments.publish.report import explain, report
@@ -92,7 +92,7 @@ def written(run):
 
 @pytest.fixture(scope="module")
 def found(run):
-    return metrics.outcomes(run)
+    return outcome.outcomes(run)
 
 
 def choose(page, question: str) -> None:
@@ -161,7 +161,7 @@ def test_times_are_those_of_the_tables(open_page, written, run):
         },
     )
     for by in [("question",), ("question", "faces"), ("question", "faces", "situation")]:
-        for row in metrics.costs(run, by).itertuples():
+        for row in costs.costs(run, by).itertuples():
             link = {names[key]: getattr(row, key) for key in by}
             here = page.evaluate(
                 "([label, link]) => cost(D.method.get(label), 'python', casesOf(link))",

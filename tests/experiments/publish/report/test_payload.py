@@ -10,8 +10,7 @@ import re
 import numpy as np
 import pytest
 
-from experiments.analysis import metrics, views
-from experiments.analysis.tables import tables
+from experiments.analysis import outcome, tables, views
 from experiments.publish.report import certificate, page, payload, report
 from experiments.publish.report.cells import links, select
 from experiments.run.folder.rows import cases_of
@@ -25,7 +24,7 @@ def given(run):
 
 @pytest.fixture(scope="module")
 def found(run):
-    found = metrics.outcomes(run)
+    found = outcome.outcomes(run)
     return found.assign(
         band=views.gap_bands(found.relative_gap)[0],
         sizes=size_of(found.faces),
@@ -144,7 +143,7 @@ def test_a_full_page_leaves_bodies_out_and_the_gallery_comes_first(run, monkeypa
     monkeypatch.setattr(payload, "BYTES", 3000)
     made = payload.of_run(run)
     assert 0 < len(made["drawn"]) < len(made["cases"]["case"]) and len(made["bytes"]) <= 3000
-    wanted = payload.gallery(metrics.outcomes(run))
+    wanted = payload.gallery(outcome.outcomes(run))
     assert made["cases"]["case"][next(iter(made["drawn"]))] in wanted
 
 

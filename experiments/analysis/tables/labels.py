@@ -1,0 +1,83 @@
+"""Tables of the cases: their certified labels, and what methods answer where bodies touch."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from experiments.analysis import metrics
+from experiments.cases import families
+from experiments.run.folder.rows import filled
+from experiments.run.folder.store import Store
+
+from .table import Table
+
+
+def truth_table(store: Store) -> Table:
+    cases = filled(store.read("cases.parquet"))
+    rows = []
+    for name, group in cases.groupby("scenario", sort=False):
+        count = group.label.value_counts()
+        rows.append(
+            {
+                "scenario": name,
+                "question": group.question.iloc[0],
+                "cases": len(group),
+                "hit": count.get("hit", 0),
+                "clear": count.get("clear", 0),
+                "touching": int(group.touching.sum()),
+                "uncertain": count.get("uncertain", 0),
+                "drawn again": int(group.attempt.sum()),
+                "precision": " ".join(sorted(group.precision.unique())),
+                "exposes": _exposes(name),
+            }
+        )
+    frame = pd.DataFrame(rows)
+    text, touching = frame.astype(str), ""
+    if frame.touching.any():
+        touching = (
+            "Touching ones, which share a boundary point without overlapping, count as clear here,"
+            " and are in no rate. "
+        )
+    else:
+        text = text.drop(columns="touching")
+    caption = (
+        f"Uncertain cases are in no rate. {touching}'Drawn again': draws thrown away because the"
+        " step began in overlap. Precision: float32 where all numbers of a case are rounded to it."
+    )
+    return Table(
+        "truth",
+        "Cases and their certified labels.",
+        caption,
+        frame,
+        text,
+        True,
+        ("exposes", "precision", "drawn again"),
+    )
+
+
+def touching_table(part: pd.DataFrame, question: str) -> Table:
+    """What each method said where the bodies share a point and no more; without such cases no
+    rows.
+    """
+    counts = metrics.rates(part[part.touching], ["method"])
+    clears = counts.touching - counts.touching_hits
+    shown = {
+        "cases": counts.asked,
+        "answered": counts.touching,
+        "said hit": counts.touching_hits,
+        "said clear": clears,
+    }
+    text = pd.DataFrame({"method": counts.method, **{k: v.astype(str) for k, v in shown.items()}})
+    numbers = counts[["method", "asked", "answered", "touching_hits"]].assign(
+        touching_clears=clears
+    )
+    caption = (
+        "The bodies are certified to touch without overlapping: neither answer is wrong, and "
+        "these cases are in no rate."
+    )
+    return Table(f"touching-{question}", f"Touching, {question}.", caption, numbers, text, True)
+
+
+def _exposes(name: str) -> str:
+    known = families.scenarios()
+    return known[name].exposes if name in known else ""

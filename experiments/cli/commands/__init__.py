@@ -1,0 +1,1 @@
+"""The commands of ofg-bench, by what they are about."""
