@@ -14,7 +14,7 @@ REUSE := REUSE_ENCODING_MODULE=charset_normalizer $(BIN)/reuse
 
 .PHONY: help env build quick test lint style types layers lines format licences \
 	lock stub engines browser native \
-	bench-ofg bench-truth crosscheck attack drill fuzz fuzz-boundary reproduce clean
+	native-v3 bench-truth crosscheck attack drill fuzz fuzz-boundary reproduce clean
 help:
 	@echo "make quick        set up, build, run the main job in a few minutes, print its tables"
 	@echo "make test         set up, build, run every test"
@@ -23,9 +23,9 @@ help:
 	@echo "make lock         make the requirements files anew; versions stay"
 	@echo "make engines      install the further engines too: coal, rapier, parry, ipctk, drake"
 	@echo "make browser      install what the report's tests drive a Chromium with"
-	@echo "make native       ask the libraries from C++ too, and compare both lanes"
+	@echo "make native       time OFG and the engines as C++ libraries (ofg-bench native)"
+	@echo "make native-v3    build FCL, libccd and Bullet for x86-64-v3, for make native"
 	@echo "make reproduce    run every experiment and the standard preset (under an hour)"
-	@echo "make bench-ofg    time OFG step by step, by size and k, beside the native engines"
 	@echo "make bench-truth  certified labels a second on the standard mix"
 	@echo "make crosscheck   ask CGAL's exact kernel and dense sampling about the labels"
 	@echo "make attack       corrupt thousands of certificates: the checker must refuse them"
@@ -111,10 +111,10 @@ browser: build
 	$(INSTALL) --require-hashes -r requirements-browser.txt
 
 native: build
-	$(BIN)/python -m experiments.native
+	$(BIN)/ofg-bench native
 
-bench-ofg: build
-	$(BIN)/python -m experiments.bench_ofg
+native-v3: build
+	PATH="$(CURDIR)/$(BIN):$$PATH" baselines/native/sources.sh
 
 bench-truth: build
 	$(BIN)/python -m experiments.truth.audit.bench

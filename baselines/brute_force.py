@@ -12,8 +12,8 @@ from .contract import Method, Verdict
 
 
 class BruteForce(Method):
-    """Every pair of faces and, in a sweep, every virtual edge of A against every face of B. Sees
-    surfaces, and sweeps only A's vertices.
+    """Tests every pair of faces and, in a sweep, every virtual edge of A against every face of
+    B. It tests surfaces, and sweeps only A's vertices.
     """
 
     name = "brute-force"
@@ -26,8 +26,8 @@ class BruteForce(Method):
     movers, about = 2, True
     gives_time = True
     guarantee = (
-        "overlap: surfaces that meet are found, to double rounding; sweeps: only what A's vertices"
-        " meet on their chords"
+        "overlap: finds surfaces that intersect, to double rounding; sweeps: finds only what A's "
+        "vertices hit along their chords"
     )
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:

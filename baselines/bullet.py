@@ -1,14 +1,14 @@
 """Bullet 3 through PyBullet: convex hulls by getClosestPoints, at one pose or at substeps.
 
-Sweeps are sampled, because getClosestPoints knows no motion. Bullet's continuous casts, which
+Sweeps are sampled, because getClosestPoints takes no motion. Bullet's continuous casts, which
 PyBullet does not offer, are in bullet_casts.py; its swept sphere belongs to the stepping track. A
 union is a plain loop over all pairs of pieces: PyBullet's compound shape takes no vertices. Meshes
-are refused, but for the -coacd methods, which decompose them: a hull would be another body, and
-mesh against mesh silently returns nothing. Traps worked around here:
+are refused except by the -coacd methods, which decompose them: a hull would be another body, and
+mesh against mesh silently returns nothing. Pitfalls avoided here:
 - A hull is given by its vertices only; with indices it would become a concave mesh.
-- A hull that is not removed leaks 27 KiB, so each dies with the query it was built for.
-- One DIRECT client per process: a client costs 28 MB, and many of them get the process killed.
-- pybullet prints a line at import and a warning at each removal; both are kept off the terminal.
+- A hull that is not removed leaks 27 KiB, so each hull is removed with its query.
+- One DIRECT client per process: a client takes 28 MB, and many of them exhaust the memory.
+- pybullet prints a line at import and a warning at each removal; both are suppressed.
 """
 
 from __future__ import annotations
@@ -27,13 +27,14 @@ from .pieces import Decomposed
 from .sampling import Discrete, Substeps
 from .units import Normalised
 
-# of each hull, whatever its size; cubes in 200 rotations: distances are 2e-3 short to within 1e-12
+# of each hull, whatever its size; cubes in 200 rotations: distances are short by 2e-3 to within
+# 1e-12
 MARGIN = 0.001
 
 
 class Bullet(Discrete):
-    """As it comes: hulls carry a margin of 0.001 each, so pairs closer than 0.002 are reported to
-    touch.
+    """Bullet with its defaults: each hull has a margin of 0.001, so pairs closer than 0.002 are
+    reported to touch.
     """
 
     name = "bullet"
@@ -76,8 +77,8 @@ class Bullet(Discrete):
 
 
 class BulletNoMargin(Normalised, Bullet):
-    """The margins added back to the reported distance: right to 1e-12 on cubes at gaps from 1e-1 to
-    -1e-1.
+    """Bullet with the margins added back to the reported distance: accurate to 1e-12 on cubes at
+    gaps from 1e-1 to -1e-1.
     """
 
     name = "bullet-no-margin"
@@ -91,25 +92,24 @@ class BulletNoMargin(Normalised, Bullet):
 
 class BulletSubsteps(Substeps, Bullet):
     name = "bullet-substeps"
-    guarantee = "bullet at n poses; blind between them"
+    guarantee = "bullet at n sampled poses; misses contacts between samples"
 
 
 class BulletNoMarginSubsteps(Substeps, BulletNoMargin):
     name = "bullet-no-margin-substeps"
-    guarantee = "bullet-no-margin at n poses; blind between them"
+    guarantee = "bullet-no-margin at n sampled poses; misses contacts between samples"
 
 
 class BulletCoacd(Decomposed, BulletNoMargin):
     name = "bullet-coacd"
     guarantee = (
-        "bullet-no-margin on the pieces of CoACD at threshold 0.05, which are another body than the"
-        " mesh"
+        "bullet-no-margin on the pieces of CoACD at threshold 0.05, which only approximate the mesh"
     )
 
 
 class BulletCoacdSubsteps(Substeps, BulletCoacd):
     name = "bullet-coacd-substeps"
-    guarantee = "bullet-coacd at n poses; blind between them"
+    guarantee = "bullet-coacd at n sampled poses; misses contacts between samples"
 
 
 @cache
@@ -132,7 +132,7 @@ def _hulls(bullet, client: int, body: Body) -> list[int]:
         for p in body.pieces
     ]
     if min(shapes) < 0:
-        raise Unsupported(f"pybullet makes no hull of body '{body.name}'")
+        raise Unsupported(f"pybullet cannot make a hull of body '{body.name}'")
     return shapes
 
 
@@ -145,8 +145,8 @@ def _remove(bullet, client: int, shapes: list[int]) -> None:
 
 @contextmanager
 def _quiet():
-    """Send what C code prints to nowhere. C buffers apart from Python, so its buffer is flushed
-    while still diverted.
+    """Discard what C code prints. C buffers separately from Python, so its buffer is flushed
+    while output is still diverted.
     """
     flush = ctypes.CDLL(None).fflush
     flush(None)

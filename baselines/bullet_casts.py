@@ -1,16 +1,16 @@
-"""Bullet's continuous convex casts, which its C++ library alone has: a native plugin asks them.
+"""Bullet's continuous convex casts, which only its C++ library offers, through a native plugin.
 
-btSubsimplexConvexCast and btGjkConvexCast know translations, btContinuousConvexCollision turns
-too. A union is asked in pairs of pieces, of which the earliest hit counts. `make native` builds the
-plugin where Bullet's headers are found.
+btSubsimplexConvexCast and btGjkConvexCast support translations, btContinuousConvexCollision also
+rotations. A union is cast in pairs of pieces, and the earliest hit counts. `ofg-bench native
+--build` builds the plugin if it finds Bullet's headers.
 
-By their documentation bodies must not overlap at the start; btSubSimplexConvexCast.h advises to
-test that by btGjkPairDetector, which the best effort does.
+By their documentation bodies must not overlap at the start; btSubSimplexConvexCast.h advises
+testing that with btGjkPairDetector, which the best effort does.
 
-The unit of the best effort is chosen as that of every engine (units.csv). Its hull margin, 0 or
-0.001, had the fewest misses, then the fewest false alarms, on 703 certified sweeps, of margins from
-0 to 0.1; up to 1000 iterations and an epsilon down to 1e-30 change nothing for the subsimplex cast
-in large units, and a positive m_allowedPenetration costs misses.
+The unit of the best effort is chosen as for every engine (units.csv). Its hull margin, 0 or 0.001,
+gave the fewest misses, then the fewest false alarms, on 703 certified sweeps, among margins from 0
+to 0.1; up to 1000 iterations and an epsilon down to 1e-30 change nothing for the subsimplex cast in
+large units, and a positive m_allowedPenetration adds misses.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ from .contract import Method, Tolerance, Verdict
 from .native import library
 from .units import Normalised
 
-MARGIN = 0.04  #: CONVEX_DISTANCE_MARGIN, which a btConvexHullShape gets around its points
-NEAR = 0.001  #: the distance at which the GJK and the continuous cast say that bodies meet
-TURN = math.pi / 4  #: the largest turn that btTransformUtil::integrateTransform follows
+MARGIN = 0.04  #: CONVEX_DISTANCE_MARGIN, which a btConvexHullShape adds around its points
+NEAR = 0.001  #: the distance at which the GJK and the continuous cast report contact
+TURN = math.pi / 4  #: the largest rotation that btTransformUtil::integrateTransform supports
 
 
 class _Cast(Method):
@@ -46,8 +46,8 @@ class _Cast(Method):
     movers = 2
     gives_time = True
     kind: ClassVar[int]  #: casts::Kind of native/casts.hpp
-    hull_margin: ClassVar[float] = -1  #: -1: as Bullet makes it
-    start_unit: ClassVar[float] = 0.0  #: of the test of the start, see native/casts.hpp; 0: none
+    hull_margin: ClassVar[float] = -1  #: -1: Bullet's default
+    start_unit: ClassVar[float] = 0.0  #: of the test at the start, see native/casts.hpp; 0: none
     halvings: ClassVar[int] = 0  #: of a leg whose cast did not converge
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
@@ -73,12 +73,12 @@ class _Cast(Method):
         return ask
 
     def legs(self, query: Query) -> int:
-        """How many casts, one after the other, the motion is asked in."""
+        """The number of consecutive casts into which the motion is divided."""
         return 1
 
 
 class _Exact(Normalised):
-    """No margin, the unit of units.csv, and the start tested first."""
+    """No margin, the unit of units.csv, and a test at the start."""
 
     configuration = "best effort"
     own_tolerance = Tolerance()
@@ -94,11 +94,13 @@ class BulletSubsimplexCast(_Cast):
     name = "bullet-subsimplex-cast"
     kind = 0
     tolerance = Tolerance(2 * MARGIN, sides="alarms")
-    guarantee = "btSubsimplexConvexCast on hulls grown by 0.04 each; no overlap at the start"
+    guarantee = (
+        "btSubsimplexConvexCast on hulls grown by 0.04 each; requires no overlap at the start"
+    )
 
 
 class BulletSubsimplexCastExact(_Exact, BulletSubsimplexCast):
-    """In units from 32 on 9 of 253 hits are missed: bodies that start 1e-10 or less from
+    """In units of 32 and above, 9 of 253 hits are missed: bodies that start 1e-10 or less from
     contact.
     """
 
@@ -110,13 +112,14 @@ class BulletGjkCast(_Cast):
     name = "bullet-gjk-cast"
     kind = 1
     tolerance = Tolerance(2 * MARGIN + NEAR, sides="alarms")
-    guarantee = "btGjkConvexCast on hulls grown by 0.04 each, a hit from 0.001 on"
+    guarantee = "btGjkConvexCast on hulls grown by 0.04 each, a hit at distances up to 0.001"
 
 
 class BulletGjkCastExact(_Exact, BulletGjkCast):
-    """The cast has no penetration solver and loses contact where hulls without margin touch.
+    """The cast has no penetration solver and loses contact when hulls without margin touch.
 
-    So they keep a small one: in units of 2^18 146 of 253 hits are missed without.
+    The hulls therefore keep a small margin: without it, 146 of 253 hits are missed in units of
+    2^18.
     """
 
     name = "bullet-gjk-cast-exact"
@@ -126,31 +129,32 @@ class BulletGjkCastExact(_Exact, BulletGjkCast):
 
 
 class BulletContinuousCast(_Cast):
-    """As btCollisionWorld's convexSweepTest asks it: one cast, with GJK-EPA for penetrations."""
+    """As in btCollisionWorld's convexSweepTest: one cast, with GJK-EPA for penetrations."""
 
     name = "bullet-continuous-cast"
     questions = frozenset({"translation", "motion"})
     kind = 2
     tolerance = Tolerance(2 * MARGIN + NEAR, sides="alarms")
     guarantee = (
-        "btContinuousConvexCollision on hulls grown by 0.04 each, a hit from 0.001 on; "
-        "turns up to 45 degrees"
+        "btContinuousConvexCollision on hulls grown by 0.04 each, a hit at distances up to "
+        "0.001; rotations up to 45 degrees"
     )
 
 
 class BulletContinuousCastExact(_Exact, BulletContinuousCast):
-    """Turns in legs of up to 45 degrees, in which Bullet's interpolation is our turn about an axis.
+    """Rotations in legs of up to 45 degrees, within which Bullet's interpolation equals our
+    rotation about an axis.
 
-    A leg whose cast reports that its 64 iterations did not do is halved: without that, 20 of 156
-    hits of bodies that turn are missed.
+    A leg whose cast reports that its 64 iterations were insufficient is halved: otherwise 20 of 156
+    hits of rotating bodies are missed.
     """
 
     name = "bullet-continuous-cast-exact"
     own_tolerance = Tolerance(NEAR, sides="alarms")
     halvings = 20
     guarantee = (
-        "btContinuousConvexCollision without margins, turns in legs of 45 degrees, "
-        "the start tested by GJK/EPA"
+        "btContinuousConvexCollision without margins, rotations in legs of 45 degrees, the start "
+        "tested by GJK/EPA"
     )
 
     def legs(self, query: Query) -> int:
@@ -178,7 +182,7 @@ def _place(motion: Motion, pose: Pose, t: float) -> np.ndarray:
 
 
 def _pieces(body: Body) -> tuple[np.ndarray, np.ndarray, int]:
-    """Points of all pieces (m, 3), how many each has, and how many pieces there are."""
+    """Points of all pieces (m, 3), the number of points of each, and the number of pieces."""
     points = [np.asarray(piece.vertices, float) for piece in body.pieces]
     return np.concatenate(points), np.array([len(p) for p in points], np.int64), len(points)
 

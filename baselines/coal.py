@@ -1,11 +1,11 @@
 """Coal 3 (formerly hpp-fcl): convex and mesh overlap at one pose or at substeps. It has no
 continuous test.
 
-Convex methods see a union as a plain loop over all pairs of its pieces; mesh methods see the soup
-of the pieces' faces. Of 100 cubes face to face, turned together, wrong answers at gaps of (1e-4
-1e-6 1e-9 1e-12 -1e-12 -1e-9 -1e-6 -1e-4): convex, default 0 0 0 32 25 35 35 0; convex, 1e-12 0 0 0
-32 0 0 0 0; mesh, default 0 32 100 100 0 0 0 0; mesh, 1e-12 45 49 49 83 0 0 0 0. So a smaller
-tolerance is no better for meshes, and they are left as they come.
+Convex methods test a union in a plain loop over all pairs of its pieces; mesh methods use the
+triangle soup of all pieces. Wrong answers on 100 pairs of cubes face to face, rotated together, at
+gaps of (1e-4 1e-6 1e-9 1e-12 -1e-12 -1e-9 -1e-6 -1e-4): convex, default 0 0 0 32 25 35 35 0;
+convex, 1e-12 0 0 0 32 0 0 0 0; mesh, default 0 32 100 100 0 0 0 0; mesh, 1e-12 45 49 49 83 0 0 0 0.
+A smaller tolerance thus does not improve meshes, which keep the default.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def _coal():
 
 
 class CoalConvex(Discrete):
-    """coal.collide with CollisionRequest() as it comes: contacts are computed, tolerances are
+    """coal.collide with a default CollisionRequest(): contacts are computed, tolerances are
     1e-6.
     """
 
@@ -41,14 +41,14 @@ class CoalConvex(Discrete):
     bodies = frozenset({"convex", "union"})
     solid = True
     places_b = True
-    tolerance = Tolerance(1e-6)  # gjk_tolerance and epa_tolerance of a request as it comes
+    tolerance = Tolerance(1e-6)  # gjk_tolerance and epa_tolerance of a default request
     guarantee = "GJK/EPA in doubles, tolerance 1e-6"
 
     def shapes(self, coal, body: Body) -> list:
         return [coal.Convex(*_arrays(coal, piece)) for piece in body.pieces]
 
     def ask_pair(self, coal, a, b) -> Callable:
-        """One pair of shapes: poses of A and B -> overlap."""
+        """Test one pair of shapes: poses of A and B -> overlap."""
         request = coal.CollisionRequest()
 
         def ask(at_a, at_b) -> bool:
@@ -68,9 +68,7 @@ class CoalConvex(Discrete):
 
 
 class CoalConvexExact(Normalised, CoalConvex):
-    """A prepared ComputeCollision that asks for no contacts, tolerances 1e-12 (1e-14 gave a wrong
-    sign).
-    """
+    """A prepared ComputeCollision without contacts, tolerances 1e-12 (1e-14 gave a wrong sign)."""
 
     name = "coal-convex-exact"
     configuration = "best effort"
@@ -108,17 +106,17 @@ class CoalMesh(CoalConvex):
 
 class CoalConvexSubsteps(Substeps, CoalConvex):
     name = "coal-convex-substeps"
-    guarantee = "coal-convex at n poses; blind between them"
+    guarantee = "coal-convex at n sampled poses; misses contacts between samples"
 
 
 class CoalConvexExactSubsteps(Substeps, CoalConvexExact):
     name = "coal-convex-exact-substeps"
-    guarantee = "coal-convex-exact at n poses; blind between them"
+    guarantee = "coal-convex-exact at n sampled poses; misses contacts between samples"
 
 
 class CoalMeshSubsteps(Substeps, CoalMesh):
     name = "coal-mesh-substeps"
-    guarantee = "coal-mesh at n poses; blind between them"
+    guarantee = "coal-mesh at n sampled poses; misses contacts between samples"
 
 
 def _arrays(coal, body: Body) -> tuple:

@@ -1,9 +1,9 @@
-"""What every method must do, whatever its engine: the properties that `ofg-bench check METHOD` and
-the tests put it through.
+"""The conformance suite: properties required of every method, checked by `ofg-bench check METHOD`
+and the tests.
 
-Each property is a function of the method that returns a list of faults, each a sentence. They ask
-easy questions only: how exact a method is on hard ones is measured, not required. They run in a
-process that may die.
+Each property is a function of the method that returns a list of faults, each a sentence. They pose
+easy queries only: accuracy on hard ones is measured, not required. They run in a process that may
+crash.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ from .frames import product
 
 CONFIGURATIONS = ("default", "best effort", "alternative", "article")
 KINDS = ("convex", "union", "mesh")
-UNDECLARED_TIME_ERROR = 0.05  #: what a method that documents no bound is held to on a head-on sweep
+UNDECLARED_TIME_ERROR = 0.05  #: bound applied to a head-on sweep if a method documents none
 
 
 def check(method: Method, seconds: float = 60.0) -> list[tuple[str, bool, str]]:
-    """(property, whether it holds, what is wrong) for every property. A crash fails the property it
-    happened in, and so does a hang of more than `seconds`.
+    """(property, whether it holds, what is wrong) for every property. A crash fails the property
+    in which it happened, and so does a hang of more than `seconds`.
     """
     results: list[tuple[str, bool, str]] = []
     while len(results) < len(PROPERTIES):
@@ -61,7 +61,7 @@ def _in_child(method: Method, properties, seconds: float) -> list[tuple[str, boo
 
 
 def _run(method: Method, properties, send) -> None:
-    faulthandler.disable()  # a death is reported by the parent
+    faulthandler.disable()  # the parent reports the crash
     null = os.open(os.devnull, os.O_WRONLY)
     os.dup2(null, 1), os.dup2(null, 2)
     for title, holds in properties:
@@ -77,7 +77,7 @@ def _death(code: int | None) -> str:
     return signal.Signals(-code).name if code and code < 0 else f"exit code {code}"
 
 
-# Bodies and questions
+# Bodies and queries
 
 
 def box(*half: float, at=(0, 0, 0), name: str = "box") -> Body:
@@ -106,8 +106,8 @@ def bar(kind: str) -> Body:
 
 
 def hooked(kind: str) -> Body:
-    """An L in the xy plane: arms of width 1 and length 3 from the corner (0, 0); the notch is 1 <
-    x, y < 3.
+    """An L in the xy plane: arms of width 1 and length 3 from the corner (0, 0); the notch is 1
+    < x, y < 3.
     """
     if kind == "union":
         return Body.union(
@@ -151,8 +151,8 @@ def sweeps(method: Method) -> list[tuple[str, str]]:
 
 
 def easy(method: Method) -> list[tuple[str, Query, bool]]:
-    """(what it is, query, whether the surfaces meet) of everything the method declares to
-    answer.
+    """(description, query, whether the surfaces intersect) of everything that the method
+    declares to answer.
     """
     queries = []
     for kind in kinds(method) if "overlap" in method.questions else ():
@@ -165,12 +165,16 @@ def easy(method: Method) -> list[tuple[str, Query, bool]]:
             )
         )
         queries.append(
-            (f"overlap of {kind} bodies deep in each other", overlap(kind, (0.9, 0.7, 0.5)), True)
+            (
+                f"overlap of {kind} bodies that penetrate deeply",
+                overlap(kind, (0.9, 0.7, 0.5)),
+                True,
+            )
         )
     for question, kind in sweeps(method):
         queries.append(
             (
-                f"{question} of {kind} bodies, passing 0.5 beside",
+                f"{question} of {kind} bodies, passing at a distance of 0.5",
                 sweep(question, kind, (-4, 2.5, 0), (8, 0, 0)),
                 False,
             )
@@ -191,11 +195,11 @@ def easy(method: Method) -> list[tuple[str, Query, bool]]:
 def declaration(method: Method) -> Iterator[str]:
     for field in ("name", "engine", "imports", "guarantee"):
         if not isinstance(getattr(method, field, None), str) or not getattr(method, field).strip():
-            yield f"{field} must be a text, not {getattr(method, field, None)!r}"
+            yield f"{field} must be a string, not {getattr(method, field, None)!r}"
     if " " in method.name or method.name != method.name.lower():
         yield f"name '{method.name}' must be lower case without spaces"
     if method.configuration not in CONFIGURATIONS:
-        yield f"configuration '{method.configuration}' is none of {', '.join(CONFIGURATIONS)}"
+        yield f"configuration '{method.configuration}' must be one of {', '.join(CONFIGURATIONS)}"
     if not method.questions or not method.questions <= set(QUESTIONS):
         yield f"questions {set(method.questions)} must be some of {', '.join(QUESTIONS)}"
     if not method.bodies or not method.bodies <= set(KINDS):
@@ -207,7 +211,7 @@ def declaration(method: Method) -> Iterator[str]:
     if not isinstance(method.tolerance, Tolerance):
         yield f"tolerance {method.tolerance!r} must be a baselines.contract.Tolerance"
     if any(" " in str(v) or "," in str(v) for v in method.parameters.values()):
-        yield "a parameter's value holds a space or a comma, so the label cannot be read back"
+        yield "a parameter's value contains a space or a comma, so the label cannot be parsed"
 
 
 def far_and_near(method: Method) -> Iterator[str]:
@@ -218,11 +222,11 @@ def far_and_near(method: Method) -> Iterator[str]:
 
 
 def contained(method: Method) -> Iterator[str]:
-    """A cube well inside another, at rest or moving a little: a solid method sees it, a surface
+    """A cube well inside another, at rest or moving a little: a solid method detects it, a surface
     method does not.
 
     It stays on one side of x = 0, where the pieces of a union meet in an inner wall that a surface
-    method does see.
+    method does detect.
     """
     queries = [
         (f"overlap, {k}", Query("overlap", body(k, 0.25), body(k), Pose(position=(0.3, 0.1, 0.3))))
@@ -236,9 +240,9 @@ def contained(method: Method) -> Iterator[str]:
     for what, query in queries:
         verdict = asked(method, query)
         if method.solid and not verdict.hit:
-            yield f"{what}: declared solid, but a contained body is not seen"
+            yield f"{what}: declared solid, but a contained body is not detected"
         if not method.solid and verdict.hit:
-            yield f"{what}: declared a surface method, but a contained body is seen"
+            yield f"{what}: declared a surface method, but a contained body is detected"
 
 
 def notch(method: Method) -> Iterator[str]:
@@ -254,13 +258,13 @@ def notch(method: Method) -> Iterator[str]:
                 != hit
             ):
                 yield (
-                    f"{kind}: a cube {'across the arm' if hit else 'in the notch'} of an L is"
-                    f" called {'clear' if hit else 'a hit'}"
+                    f"{kind}: a cube {'across the arm' if hit else 'in the notch'} of an L is "
+                    f"reported as {'clear' if hit else 'a hit'}"
                 )
 
 
 def beyond_tolerance(method: Method) -> Iterator[str]:
-    """Cubes apart by the declared tolerance and 0.002 more are clear."""
+    """Cubes separated by the declared tolerance plus 0.002 are clear."""
     allowed = (
         float(method.tolerance.reach(body("convex").size, 0.0))
         if method.tolerance.covers("alarms")
@@ -275,14 +279,14 @@ def beyond_tolerance(method: Method) -> Iterator[str]:
             ).hit
         ):
             yield (
-                f"{kind}: cubes {gap:g} apart are called a hit, but the declared tolerance is"
-                f" {method.tolerance}"
+                f"{kind}: cubes {gap:g} apart are reported as a hit, but the declared tolerance "
+                f"is {method.tolerance}"
             )
 
 
 def head_on(method: Method) -> Iterator[str]:
-    """A cube through another, which it meets at t = 0.3, then one that stops inside it; three
-    lateral offsets.
+    """A cube that passes through another, hitting it at t = 0.3, then one that stops inside it;
+    three lateral offsets.
     """
     for (question, kind), side, far in itertools.product(
         sweeps(method), (0.0, 0.3, 0.7), (10.0, 5.0)
@@ -290,9 +294,9 @@ def head_on(method: Method) -> Iterator[str]:
         verdict = asked(method, sweep(question, kind, (-5, side, side / 2), (far, 0, 0)))
         exact = 3 / far
         fault = _time_fault(method, verdict, exact) if verdict.hit else "missed"
-        # who looks at the end alone may pass through
+        # A method that tests only the end pose may miss the pass through.
         if fault and not (_blind(method, 0.4) and not verdict.hit):
-            yield f"{question}, {kind}, offset {side}, meets at {exact:g}: {fault}"
+            yield f"{question}, {kind}, offset {side}, hits at {exact:g}: {fault}"
 
 
 def _time_fault(method: Method, verdict: Verdict, exact: float) -> str:
@@ -300,7 +304,7 @@ def _time_fault(method: Method, verdict: Verdict, exact: float) -> str:
         return (
             ""
             if math.isnan(verdict.time)
-            else f"gives the time {verdict.time}, but declares that it gives none"
+            else f"gives the time {verdict.time}, but declares no times"
         )
     bound = UNDECLARED_TIME_ERROR if math.isnan(method.time_error) else method.time_error
     if not 0 <= verdict.time <= 1:
@@ -309,21 +313,21 @@ def _time_fault(method: Method, verdict: Verdict, exact: float) -> str:
     return (
         ""
         if abs(off) <= bound + 1e-6
-        else f"time {verdict.time:.6g} is {off:+.2g} off, more than {bound:.2g}"
+        else f"time {verdict.time:.6g} is off by {off:+.2g}, more than {bound:.2g}"
     )
 
 
 def same_again(method: Method) -> Iterator[str]:
-    """The same callable twice, after others, and prepared anew: one answer."""
+    """The same callable twice, after others, and prepared again: one answer."""
     queries = [query for _, query, _ in easy(method)] + [
         sweep(q, k, (-5, 0.3, 0.1), (10, 0, 0)) for q, k in sweeps(method)
     ]
     calls = [method.ready(query) for query in queries]
     first = [call() for call in calls]
     for what, again in (
-        ("asked again in reverse order", [call() for call in reversed(calls)][::-1]),
-        ("prepared anew", [asked(method, query) for query in queries]),
-        ("asked after others were prepared", [call() for call in calls]),
+        ("repeated in reverse order", [call() for call in reversed(calls)][::-1]),
+        ("prepared again", [asked(method, query) for query in queries]),
+        ("repeated after others were prepared", [call() for call in calls]),
     ):
         for query, a, b in zip(queries, first, again):
             if repr(a) != repr(b):
@@ -331,7 +335,7 @@ def same_again(method: Method) -> Iterator[str]:
 
 
 def moved_together(method: Method) -> Iterator[str]:
-    """Turning and moving the whole question changes no verdict."""
+    """Rotating and moving the whole query changes no verdict."""
     frame = Pose((0.8, 0.1, 0.5, -0.3), (3, -2, 1))
 
     def moved(pose: Pose) -> Pose:
@@ -381,8 +385,8 @@ def translation_is_motion(method: Method) -> Iterator[str]:
 
 
 def turns(method: Method) -> Iterator[str]:
-    """A bar of length 6 that turns in place by 170 degrees sweeps a cube off its path; the same bar
-    at rest misses it.
+    """A bar of length 6 that rotates in place by 170 degrees hits a cube beside its path; the
+    same bar at rest misses it.
     """
     if "motion" not in method.questions:
         return
@@ -392,19 +396,19 @@ def turns(method: Method) -> Iterator[str]:
             verdict = asked(method, Query("motion", bar(kind), body(kind, 0.4), Pose(), at, motion))
             if verdict.hit != hit and not _blind(method, 0.1):
                 yield (
-                    f"{kind}: a bar turning by {math.degrees(angle):.0f} degrees"
-                    f" {'into' if hit else 'beside'} a cube: {_word(verdict)}"
+                    f"{kind}: a bar rotating by {math.degrees(angle):.0f} degrees "
+                    f"{'into' if hit else 'beside'} a cube: {_word(verdict)}"
                 )
 
 
 def both_translate(method: Method) -> Iterator[str]:
-    """Cubes that meet at t = 0.3 by their common speed, and cubes that fly side by side."""
+    """Cubes that meet at t = 0.3 at their combined speed, and cubes that move side by side."""
     for (question, kind), far_b in itertools.product(sweeps(method), (-5.0, -10.0, 10.0)):
         query = sweep(question, kind, (-5, 0.3, 0.15), (10 + far_b, 0, 0))
         verdict = _unless_refused(method, replace(query, motion_b=Motion((far_b, 0, 0))))
         if verdict and (fault := _time_fault(method, verdict, 0.3) if verdict.hit else "missed"):
             if verdict.hit or not _blind(method, 0.4):
-                yield f"{question}, {kind}, B moves by {far_b:g}, meets at 0.3: {fault}"
+                yield f"{question}, {kind}, B moves by {far_b:g}, hits at 0.3: {fault}"
         along = sweep(question, kind, (-5, 0.3, 0.15), (far_b, 0, 0))
         verdict = _unless_refused(method, replace(along, motion_b=along.motion))
         if verdict and verdict.hit:
@@ -412,18 +416,18 @@ def both_translate(method: Method) -> Iterator[str]:
 
 
 def b_turns(method: Method) -> Iterator[str]:
-    """A bar as B turns by 60 degrees past a cube, which lies still or turns in place."""
+    """A bar as B that rotates by 60 degrees past a cube, which rests or rotates in place."""
     at = Pose(position=(2.25, 1.3, 0))
     for kind, spin in itertools.product(_turned_kinds(method), (0.0, 1.0)):
         for angle, hit in ((math.pi / 3, True), (0.0, False)):
             motions = Motion(angle=spin), Motion((0, 0, 0.01), angle=angle)
             query = Query("motion", body(kind, 0.4), bar(kind), at, Pose(), *motions)
-            what = f"{kind}, A turns by {spin:g}, B by {angle:g}"
+            what = f"{kind}, A rotates by {spin:g}, B by {angle:g}"
             yield from _turn_fault(method, what, query, hit)
 
 
 def turn_together(method: Method) -> Iterator[str]:
-    """A bar turns, and a cube with it, about the bar's centre: they never meet."""
+    """A bar and a cube rotate together about the bar's centre: they never meet."""
     at, turn = np.array([2.25, 1.3, 0]), math.pi / 3
     for kind in _turned_kinds(method):
         motions = Motion(angle=turn), Motion(angle=turn, about=-at)
@@ -433,12 +437,12 @@ def turn_together(method: Method) -> Iterator[str]:
 
 
 def about_a_point(method: Method) -> Iterator[str]:
-    """A bar turns about a point ten lengths off, which takes it through a cube; and about its
-    centre.
+    """A bar rotates about a point ten lengths away, which carries it through a cube; and about
+    its centre.
     """
     for kind, (about, hit) in itertools.product(_turned_kinds(method), ((-10, True), (0, False))):
         motion = Motion(angle=0.3, about=(about, 0, 0))
-        at, where = Pose(position=(0.5, 1.5, 0)), f"turns about ({about}, 0, 0)"
+        at, where = Pose(position=(0.5, 1.5, 0)), f"rotates about ({about}, 0, 0)"
         query = Query("motion", bar(kind), body(kind, 0.4), Pose(), at, motion)
         yield from _turn_fault(method, f"{kind}, A {where}", query, hit)
         yield from _turn_fault(method, f"{kind}, B {where}", query.swapped(), hit)
@@ -458,7 +462,7 @@ def _unless_refused(method: Method, query: Query) -> Verdict | None:
 
 
 def _blind(method: Method, longest: float) -> bool:
-    """Whether the method looks at times that are further apart than this share of the step."""
+    """Whether the method samples times that are further apart than this share of the step."""
     return not math.isnan(method.time_error) and method.time_error > longest
 
 
@@ -479,17 +483,17 @@ def _word(verdict: Verdict) -> str:
 PROPERTIES: list[tuple[str, Callable[[Method], Iterator[str]]]] = [
     ("declares itself", declaration),
     ("far apart is clear, deep overlap is a hit", far_and_near),
-    ("a contained body is seen by solid methods alone", contained),
+    ("contained bodies are detected by solid methods only", contained),
     ("the notch of a concave body is empty", notch),
     ("clear beyond its tolerance", beyond_tolerance),
-    ("meets a head-on sweep at its time", head_on),
+    ("hits a head-on sweep at its time", head_on),
     ("gives the same answer again", same_again),
     ("does not depend on the frame", moved_together),
     ("refuses what it does not declare", refuses),
-    ("a translation is a motion that does not turn", translation_is_motion),
-    ("sees what a turning bar meets", turns),
-    ("meets what moves towards it", both_translate),
-    ("sees what B meets as it turns", b_turns),
-    ("sees that bodies turn together", turn_together),
-    ("turns about the point that it is told", about_a_point),
+    ("a translation is a motion without rotation", translation_is_motion),
+    ("detects what a rotating bar hits", turns),
+    ("detects a body that moves towards it", both_translate),
+    ("detects what B hits as it rotates", b_turns),
+    ("detects no contact between bodies that rotate together", turn_together),
+    ("rotates about the given point", about_a_point),
 ]

@@ -1,4 +1,6 @@
-"""What a method is: it prepares a query (build, timed apart) and answers it (timed)."""
+"""The contract of a method: it prepares a query (the build, timed separately) and answers it
+(timed).
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,7 @@ __all__ = ["Method", "MissingEngine", "Tolerance", "Unsupported", "Verdict", "ch
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """hit: the method says that the bodies meet. time: its time of impact in [0, 1], NaN where it
+    """hit: whether the method reports a collision. time: its time of impact in [0, 1], NaN if it
     gives none.
     """
 
@@ -33,7 +35,7 @@ class Verdict:
 def checked(said: object) -> Verdict:
     """What a method returned, with a plain bool and a plain float.
 
-    Raises TypeError or ValueError, with words for its row, where it is no clear answer.
+    Raises TypeError or ValueError, with a message for its row, if it is not a valid answer.
     """
     if not isinstance(said, Verdict):
         kind = type(said).__name__
@@ -51,13 +53,14 @@ def checked(said: object) -> Verdict:
 
 class Method(ABC):
     """One engine in one configuration. Subclass it in a file of `baselines/`; class attributes
-    declare what it is.
+    declare its properties.
 
-    A subclass is made once per worker process and asked many queries; it may cache what it builds
-    per body (`Body.digest`). Making one imports no engine and checks its parameters, so that a run
-    is refused before it begins: by `allowed`, or with a ValueError from an `__init__` of your own.
-    Everything that a user would do once per body pair belongs in `prepare`; what he would do for
-    each new pose belongs in the callable that `prepare` returns, and is timed.
+    A subclass is instantiated once per worker process and answers many queries; it may cache what
+    it builds per body (`Body.digest`). Instantiation imports no engine and checks the parameters,
+    so that a run is refused before it begins: by `allowed`, or with a ValueError from the
+    subclass's own `__init__`. Work that a user would do once per pair of bodies belongs in
+    `prepare`; work for each new pose belongs in the callable that `prepare` returns, which is
+    timed.
     """
 
     name: ClassVar[str]  #: unique, lower case, as in the tables: "fcl-convex"
@@ -67,36 +70,37 @@ class Method(ABC):
     configuration: ClassVar[str]
     questions: ClassVar[frozenset[str]]  #: subset of ofg.QUESTIONS
     bodies: ClassVar[frozenset[str]]  #: subset of {"convex", "union", "mesh"}
-    solid: ClassVar[bool]  #: False: tests surfaces, so a contained body is not seen
-    #: 1: `prepare` gets queries in which A alone moves (frames.one_mover). 2: it reads motion_b too
+    solid: ClassVar[bool]  #: False: tests surfaces, so it does not detect a contained body
+    #: 1: `prepare` gets queries in which only A moves (frames.one_mover). 2: it also reads motion_b
     movers: ClassVar[int] = 1
-    #: True: it reads Motion.about. False: a body that turns about a point gets that point as its
+    #: True: it reads Motion.about. False: a body that rotates about a point gets that point as its
     #: origin
     about: ClassVar[bool] = False
-    #: True: of a mesh it answers about the convex pieces of ofg.decompose, by whose truth it is
-    #: judged; may be a property
+    #: True: it answers for the convex pieces of a mesh (ofg.decompose) and is judged by their
+    #: truth; may be a property
     decomposes: bool = False
     gives_time: ClassVar[bool] = False  #: returns a time of impact for sweeps
     tolerance: Tolerance = (
-        NONE  #: how far from the truth an answer may be by its documentation; may be a property
+        NONE  #: documented error of an answer as a distance from the truth; may be a property
     )
-    precision: str = "double"  #: "single" where the engine computes, or holds a body, in float32
-    guarantee: ClassVar[str]  #: one line: what an answer is worth by its documentation
+    precision: str = "double"  #: "single" if the engine computes or stores bodies in float32
+    guarantee: ClassVar[str]  #: one line: what the documentation guarantees of an answer
     time_error: float = (
         nan  #: documented bound on |time - true time|, as a share of the step; may be a property
     )
-    #: False: its engine may answer the same question otherwise another time, so that no answer of
-    #: it proves a change
+    #: False: the engine may answer the same query differently another time, so no answer of it
+    #: proves a change
     repeatable: ClassVar[bool] = True
     cheapest: ClassVar[
         Mapping[str, Any]
     ] = {}  #: parameters of its cheapest call, which gives its floor: {"n": 1} for n substeps
     parameters: Mapping[
         str, Any
-    ] = {}  #: name -> default; the first is the one its accuracy-speed curve runs over
-    #: name -> (least, most) of a number, or the words that it takes; others take all of their kind
+    ] = {}  #: name -> default; the first is the parameter of its accuracy-speed curve
+    #: name -> (least, most) of a number, or the allowed strings; others allow all values of their
+    #: type
     allowed: ClassVar[Mapping[str, Allowed]] = {}
-    #: whole-number parameters that take "inf" too
+    #: whole-number parameters that also allow "inf"
     unlimited: ClassVar[frozenset[str]] = frozenset()
 
     def __init__(self, **parameters: Any) -> None:
@@ -114,8 +118,8 @@ class Method(ABC):
 
     @property
     def label(self) -> str:
-        """The name, the first parameter, and the others that differ from their defaults: 'ofg k=8'.
-        `registry.make` reads it back.
+        """The name, the first parameter, and the others that differ from their defaults: 'ofg
+        k=8'. `registry.make` parses it.
         """
         defaults = type(self).parameters
         shown = {
@@ -124,31 +128,33 @@ class Method(ABC):
         return " ".join([self.name, *(f"{k}={v}" for k, v in shown.items())])
 
     def ready(self, query: Query) -> Callable[[], Verdict]:
-        """The callable that answers `query`: what a harness calls, and not `prepare`.
+        """The callable that answers `query`. A harness calls this, not `prepare`.
 
-        It states the motions as the method declares to know them, so that none is left unread.
+        It converts the motions to the form that the method declares, so that none is ignored.
         Raises Unsupported with a reason.
         """
         self._refuse_undeclared(query)
         return self.prepare(stated(query, self.movers, self.about))
 
     def refuse(self, query: Query) -> None:
-        """Raise Unsupported where the declaration rules the query out."""
+        """Raise Unsupported if the declaration excludes the query."""
         self._refuse_undeclared(query)
         if stated(query, self.movers, self.about) is not query:
-            raise Unsupported("it does not know these motions as they stand; ask it by `ready`")
+            raise Unsupported(
+                "it does not support motions in this form; call `ready` instead of `prepare`"
+            )
 
     def _refuse_undeclared(self, query: Query) -> None:
         if query.question not in self.questions:
             raise Unsupported(f"does not answer {query.question}")
         for body in (query.a, query.b):
             if body.kind not in self.bodies:
-                raise Unsupported(f"takes no {body.kind} body")
+                raise Unsupported(f"does not support {body.kind} bodies")
 
     @abstractmethod
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         """Build for `query` and return the callable that answers it. Raises Unsupported with a
         reason.
 
-        Called by `ready`, with the motions as `movers` and `about` declare them.
+        Called by `ready`, with the motions in the form that `movers` and `about` declare.
         """

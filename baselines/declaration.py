@@ -1,5 +1,5 @@
-"""What a method declares by its class attributes: all there, and of the kind that tables and
-records expect.
+"""Checks that a method's class attributes are complete and of the types that tables and records
+need.
 """
 
 from __future__ import annotations
@@ -13,17 +13,15 @@ from .contract import Method, Tolerance
 WORDS = ("name", "engine", "imports", "configuration", "guarantee")
 SETS = {"questions": frozenset(QUESTIONS), "bodies": frozenset({"convex", "union", "mesh"})}
 OF_A_CLASS = (
-    "It is a subclass of baselines.contract.Method, whose attributes experiments/EXTENDING.md"
-    " lists."
+    "It must be a subclass of baselines.contract.Method, whose attributes "
+    "experiments/EXTENDING.md lists."
 )
 
 
 def fault(cls: object) -> str:
-    """What is wrong with the declaration of a method, as a sentence with the remedy; "" if nothing
-    is.
-    """
+    """The fault of a method's declaration, as a sentence with the remedy; "" if there is none."""
     if not (isinstance(cls, type) and issubclass(cls, Method)):
-        return f"{cls!r} in METHODS is no class of a method. {OF_A_CLASS}"
+        return f"{cls!r} in METHODS is not the class of a method. {OF_A_CLASS}"
     lacking = [name for name in (*WORDS, *SETS, "solid") if not hasattr(cls, name)]
     if lacking:
         return (
@@ -55,8 +53,8 @@ def _wrong(cls: type[Method]):
         yield (
             "margin",
             (
-                "is not read any more; declare tolerance = Tolerance(length=...), of"
-                " baselines.contract"
+                "is no longer supported; declare tolerance = Tolerance(length=...), of "
+                "baselines.contract"
             ),
         )
     if not isinstance(cls.tolerance, (Tolerance, property)):

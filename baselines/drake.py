@@ -1,8 +1,9 @@
 """Drake's SceneGraph: hulls at one pose or at substeps, by HasCollisions or by signed distance.
 
 A union is one geometry per piece on the same frame. Every call goes through Drake's system
-framework (a pose is fixed on an input port and the query port evaluated), which costs more than the
-test itself; so it does for Drake's users. Drake 1.51.1 is the last with wheels for Python 3.11.
+framework (a pose is fixed on an input port and the query port is evaluated), which costs more than
+the test itself; Drake's users pay the same cost. Drake 1.51.1 is the last version with wheels for
+Python 3.11.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ class Drake(Discrete):
     bodies = frozenset({"convex", "union"})
     solid = True
     places_b = True
-    tolerance = Tolerance(1e-6)  # that of FCL's libccd, which it calls
+    tolerance = Tolerance(1e-6)  # the tolerance of FCL's libccd, which it calls
     guarantee = "GJK (FCL with libccd) in doubles"
 
     def ask(self, query_object, ids_a, ids_b) -> bool:
@@ -86,7 +87,7 @@ class DrakeExact(Normalised, Drake):
 
 class DrakeExactSubsteps(Substeps, DrakeExact):
     name = "drake-exact-substeps"
-    guarantee = "drake-exact at n poses; blind between them"
+    guarantee = "drake-exact at n sampled poses; misses contacts between samples"
 
 
 class DrakeDistance(Drake):
@@ -103,12 +104,12 @@ class DrakeDistance(Drake):
 
 class DrakeSubsteps(Substeps, Drake):
     name = "drake-substeps"
-    guarantee = "drake at n poses; blind between them"
+    guarantee = "drake at n sampled poses; misses contacts between samples"
 
 
 class DrakeDistanceSubsteps(Substeps, DrakeDistance):
     name = "drake-distance-substeps"
-    guarantee = "drake-distance at n poses; blind between them"
+    guarantee = "drake-distance at n sampled poses; misses contacts between samples"
 
 
 def _geometries(pydrake, body: Body, side: str, at) -> list:

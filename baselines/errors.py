@@ -1,9 +1,11 @@
-"""What a method raises where it cannot be asked."""
+"""Errors of methods that cannot answer a query."""
 
 
 class Unsupported(Exception):
-    """Raised by `prepare` with the reason why a method cannot be asked a query. Never a miss."""
+    """Raised by `prepare` with the reason why a method cannot answer a query. It never counts as
+    a miss.
+    """
 
 
 class MissingEngine(ImportError):
-    """The engine's package is not installed; the message says how to install it."""
+    """The engine's package is not installed; the message tells how to install it."""

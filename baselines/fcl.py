@@ -1,14 +1,14 @@
 """FCL 0.7 through python-fcl: convex and mesh overlap, signed distance, and each usable mode of its
 continuous request.
 
-Convex methods see a union as a plain loop over all pairs of its pieces; mesh methods see the soup
-of the pieces' faces. Traps worked around here:
-- python-fcl's CollisionResult accumulates, so every call gets a new one; a Transform costs 5 us to
+Convex methods test a union in a plain loop over all pairs of its pieces; mesh methods use the
+triangle soup of all pieces. Pitfalls avoided here:
+- python-fcl's CollisionResult accumulates, so every call gets a new one; a Transform takes 5 us to
   make, so poses are prebuilt.
 - `CCDM_LINEAR` never initialises its reference point, so its answers depend on what the process
   freed before: see `_Linear`.
-- Conservative advancement of a Convex against a BVH segfaults; here both bodies are always given in
-  the same form. Not offered, as they answer nothing usable: RAY_SHOOTING (returns -1), POLYNOMIAL
+- Conservative advancement of a Convex against a BVH segfaults; here both bodies always have the
+  same form. Modes without usable answers are not offered: RAY_SHOOTING (returns -1), POLYNOMIAL
   (changes the model, time 0), SPLINE, and SCREW (another path than ours; pure translations 0.27 of
   the step early, head-on at 0.3).
 """
@@ -31,9 +31,9 @@ from .sampling import Discrete, Substeps
 from .units import Normalised
 
 #: Bytes of FCL 0.7's InterpMotion, the object of CCDM_LINEAR: of all sizes from 24 to 2024, only
-#: stale blocks of this one change answers.
-#: valgrind names no other memory that conservative advancement reads unset, on the heap or the
-#: stack.
+#: stale blocks of this size change answers.
+#: valgrind reports no other uninitialised memory that conservative advancement reads, on the heap
+#: or the stack.
 MOTION_BYTES = 504
 #: length: collision_tolerance and distance_tolerance of both of FCL's GJK solvers, by their headers
 GJK = 1e-6
@@ -71,7 +71,7 @@ class _Convex:
 
 class _Mesh:
     """Bodies as bounding-volume trees over their triangles (OBBRSS): surfaces, so containment is
-    not seen.
+    not detected.
     """
 
     engine, imports = "python-fcl", "fcl"
@@ -87,7 +87,7 @@ class _Mesh:
 
 
 class _Overlap(Discrete):
-    """fcl.collide on every pair of shapes, first hit wins. Subclasses mix in `shapes`."""
+    """fcl.collide on every pair of shapes up to the first hit. Subclasses mix in `shapes`."""
 
     solver = "GST_LIBCCD"
     places_b = True
@@ -125,7 +125,7 @@ class FclConvex(_Convex, _Overlap):
 
 
 class FclConvexExact(Normalised, FclConvex):
-    # In small units faces that a tilt of 1e-7 to 1e-9 wedges into each other are missed: 39 of 62
+    # In small units, faces wedged into each other at a tilt of 1e-7 to 1e-9 are missed: 39 of 62
     # hits with radius 32, 13 with 1024, none in the unit chosen since (near_parallel).
     name = "fcl-convex-exact"
     configuration = "best effort"
@@ -134,11 +134,11 @@ class FclConvexExact(Normalised, FclConvex):
 
 class FclConvexExactSubsteps(Substeps, FclConvexExact):
     name = "fcl-convex-exact-substeps"
-    guarantee = "fcl-convex-exact at n poses; blind between them"
+    guarantee = "fcl-convex-exact at n sampled poses; misses contacts between samples"
 
 
 class FclConvexIndep(FclConvex):
-    # False hits on cubes at gaps of 1e-6 and less; libccd, the default, is the more exact one.
+    # False hits on cubes at gaps of 1e-6 and less; libccd, the default, is more accurate.
     name = "fcl-convex-indep"
     configuration = "alternative"
     solver = "GST_INDEP"
@@ -154,14 +154,14 @@ class FclMesh(_Mesh, _Overlap):
 class FclDistance(FclConvex):
     """Overlap by the sign of the signed distance.
 
-    Aborts the process (uncaught std::logic_error in EPA) near touching: cubes face to face, turned
-    together, 6, 3, 8, 4, 2 of 600 at
-    -1e-8, -1e-9, -1e-10, -1e-11, -1e-12. Kept as a method of its own so that its rows show it.
+    Aborts the process (uncaught std::logic_error in EPA) near contact: cubes face to face, rotated
+    together, 6, 3, 8, 4, 2 of 600 at -1e-8, -1e-9, -1e-10, -1e-11, -1e-12. It is a separate method
+    so that its rows show this.
     """
 
     name = "fcl-distance"
     configuration = "alternative"
-    guarantee = "signed distance by GJK/EPA (libccd); may abort the process near touching"
+    guarantee = "signed distance by GJK/EPA (libccd); may abort the process near contact"
 
     def ask_pair(self, fcl) -> Callable:
         request = fcl.DistanceRequest(enable_signed_distance=True)
@@ -170,19 +170,19 @@ class FclDistance(FclConvex):
 
 class FclConvexSubsteps(Substeps, FclConvex):
     name = "fcl-convex-substeps"
-    guarantee = "fcl-convex at n poses; blind between them"
+    guarantee = "fcl-convex at n sampled poses; misses contacts between samples"
 
 
 class FclMeshSubsteps(Substeps, FclMesh):
     name = "fcl-mesh-substeps"
-    guarantee = "fcl-mesh at n poses; blind between them"
+    guarantee = "fcl-mesh at n sampled poses; misses contacts between samples"
 
 
 class _Continuous(Method):
     """fcl.continuousCollide from pose to pose. Subclasses mix in `shapes` and choose the modes.
 
-    FCL is told two poses of each body and takes the shortest turn between them, about the body's
-    origin, so a motion of more than 3 rad is asked in legs.
+    FCL takes two poses of each body and the shortest rotation between them, about the body's
+    origin, so a motion of more than 3 rad is divided into legs.
     """
 
     gives_time = True
@@ -192,7 +192,7 @@ class _Continuous(Method):
     path = {"translation": "CCDM_TRANS", "motion": "CCDM_LINEAR"}
 
     def limits(self) -> dict:
-        """What the request says of accuracy: num_max_iterations, toc_err."""
+        """The accuracy settings of the request: num_max_iterations, toc_err."""
         return {}
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
@@ -201,8 +201,8 @@ class _Continuous(Method):
         linear = path == "CCDM_LINEAR"
         if linear and not _repeatable():
             raise Unsupported(
-                "CCDM_LINEAR reads uninitialised memory, and this platform's malloc does not let us"
-                " set it beforehand"
+                "CCDM_LINEAR reads uninitialised memory, and this platform's malloc does not let "
+                "us set it beforehand"
             )
         fcl = _fcl()
         request = fcl.ContinuousCollisionRequest(
@@ -249,8 +249,8 @@ def _legs(query: Query) -> int:
 
 
 class _DefaultRequest(_Continuous):
-    """ContinuousCollisionRequest() as it comes: conservative advancement, CCDM_TRANS, 10
-    iterations, toc_err 1e-4.
+    """A default ContinuousCollisionRequest(): conservative advancement, CCDM_TRANS, 10 iterations,
+    toc_err 1e-4.
 
     CCDM_TRANS moves a body along a line and ignores its rotation, so `motion` is not declared: the
     request for it is CCDM_LINEAR (fcl-advancement-*, fcl-naive-*).
@@ -261,8 +261,8 @@ class _DefaultRequest(_Continuous):
 
 
 class FclCcdMesh(_Mesh, _DefaultRequest):
-    # Cubes of 2 passing through each other, head-on and turned: 37 of 40 missed. Known upstream
-    # (fcl 555, python-fcl 38).
+    # Cubes of size 2 passing through each other, head-on and rotated: 37 of 40 missed. Known
+    # upstream (fcl 555, python-fcl 38).
     name = "fcl-ccd-mesh"
     tolerance = Tolerance(step=1e-4)
     guarantee = (
@@ -280,13 +280,14 @@ class FclCcdConvex(_Convex, _DefaultRequest):
 
 
 class _Linear(_Continuous):
-    """CCDM_LINEAR for motions, whose reference point FCL reads before anything has written it.
+    """CCDM_LINEAR for motions; FCL reads its reference point before anything has written it.
 
-    heap: the bytes that it finds there. "zero" is the body's origin, which FCL documents; "filled"
-    is HEAP's other byte. In a process without this parameter it is whatever was freed before. Both
-    give the answers of a process whose whole heap holds that byte, verdict for verdict and time for
-    time. Of the 2,789 sweeps of the standard run with up to 400 faces, fcl-advancement-convex
-    path=trans misses 87 with "zero" and 253 with "filled", and calls 48 and 307 clear ones a hit.
+    heap: the bytes found there. "zero" is the body's origin, which FCL documents; "filled" is
+    HEAP's other byte. In a process without this parameter, they are whatever was freed before. Both
+    give the answers of a process whose whole heap contains that byte, with equal verdicts and
+    times. Of the 2,789 sweeps of the standard run with up to 400 faces, fcl-advancement-convex
+    path=trans misses 87 with "zero" and 253 with "filled", and reports 48 and 307 clear ones as
+    hits.
     """
 
     configuration = "best effort"
@@ -296,14 +297,15 @@ class _Linear(_Continuous):
 class _Advancement(_Linear):
     """Conservative advancement at its best: GST_INDEP, CCDM_LINEAR for all, 1000 iterations.
 
-    Hulls, misses of 253 certified translations that hit, false hits of 182 that do not (seven
-    families): GST_INDEP 0, 3; with CCDM_TRANS, which is for translations alone, 10, 3. GST_LIBCCD
-    18, 4; with CCDM_TRANS 27, 5. toc_err changes none of that. On the cases of the standard run
-    the two paths miss 5 and 86 of 856, with 18 and 16 false hits of 621. Boxes that fall obliquely
-    through a plate, in the first order: 0, 65, 15, 45 of 250 missed. CCDM_LINEAR takes half as long
-    again; path=trans asks translations by CCDM_TRANS. Meshes miss 224 of 262 on either.
-    Its times hang on the last bit of a pose: a quaternion that ends 1e-16 elsewhere moved one by
-    6e-7 of the step.
+    For hulls, misses of 253 certified translations that hit, then false hits of 182 that do not
+    (seven families): GST_INDEP 0, 3; with CCDM_TRANS, which supports translations only, 10, 3.
+    GST_LIBCCD 18, 4; with CCDM_TRANS 27, 5. toc_err changes none of these. On the cases of the
+    standard run the two paths miss 5 and 86 of 856, with 18 and 16 false hits of 621. Boxes that
+    fall obliquely through a plate, in the first order: 0, 65, 15, 45 of 250 missed. CCDM_LINEAR
+    takes half as long again; path=trans uses CCDM_TRANS for translations. Meshes miss 224 of 262 on
+    either.
+    Its times depend on the last bit of a pose: changing a quaternion by 1e-16 moved one by 6e-7 of
+    the step.
     """
 
     parameters = {"toc_err": 1e-4, "path": "linear", "heap": "zero"}
@@ -332,16 +334,17 @@ class FclAdvancementMesh(Normalised, _Mesh, _Advancement):
 
 
 class _Naive(_Linear):
-    """The NAIVE mode: `iterations` samples at i / (iterations - 1), so late by up to one spacing
-    and blind between them.
+    """The NAIVE mode: `iterations` samples at i / (iterations - 1). It is late by up to one
+    spacing and misses contacts between samples.
     """
 
     parameters = {"iterations": 10, "heap": "zero"}
-    allowed = {"iterations": (2, 2**31 - 1), "heap": tuple(HEAP)}  # the start and the end at least
+    allowed = {"iterations": (2, 2**31 - 1), "heap": tuple(HEAP)}  # at least the start and the end
     cheapest = {"iterations": 2}
     advancement = "CCDC_NAIVE"
     guarantee = (
-        "discrete test at evenly spaced samples of FCL's own interpolation; blind between them"
+        "discrete test at evenly spaced samples of FCL's own interpolation; misses contacts "
+        "between samples"
     )
 
     def limits(self) -> dict:
@@ -368,7 +371,7 @@ def _fill_motions(fill: int) -> None:
     """Leave two blocks of this byte where malloc will look first for the two InterpMotions of the
     next call (1 us).
 
-    glibc hands out the block of a size that was freed last.
+    glibc reuses the block of a size that was freed last.
     """
     libc = _libc()
     blocks = [libc.malloc(MOTION_BYTES), libc.malloc(MOTION_BYTES)]
@@ -396,8 +399,8 @@ def _libc():
 
 @cache
 def _repeatable() -> bool:
-    """Does `_fill_motions` rule the answer here? A turning cube, with stale memory of ours and with
-    zeroed memory.
+    """Whether `_fill_motions` determines the answer here, tested by a rotating cube with our
+    stale memory and with zeroed memory.
     """
     if sys.platform != "linux":
         return False

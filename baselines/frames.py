@@ -1,4 +1,4 @@
-"""The same question in another frame, for engines that know fewer motions than a Query states."""
+"""The same query in another frame, for engines that support fewer motions than a Query."""
 
 from __future__ import annotations
 
@@ -13,24 +13,25 @@ from .errors import Unsupported
 
 
 def stated(query: Query, movers: int, about: bool) -> Query:
-    """The question as a method knows it.
+    """The query in a form that a method supports.
 
-    movers: bodies that it can move. about: it can turn them about any point.
+    movers: bodies that it can move. about: whether it can rotate them about any point.
 
-    The query itself where it is so already. Unsupported where both bodies turn and movers is 1.
+    Returns the query itself if it is already supported. Raises Unsupported if both bodies rotate
+    and movers is 1.
     """
     query = one_mover(query) if movers == 1 else query
     return query if about else about_origins(query)
 
 
 def one_mover(query: Query) -> Query:
-    """The same question with B at rest: A gets the relative motion, in double rounding.
+    """The same query with B at rest: A gets the relative motion, in double rounding.
 
-    That is exact in the numbers where at most one body turns. If that is B, the two are exchanged:
-    the answer is the same. Unsupported where both turn.
+    This introduces no error but rounding if at most one body rotates. If that is B, the two are
+    exchanged: the answer is the same. Raises Unsupported if both rotate.
     """
     if query.motion.angle and query.motion_b.angle:
-        raise Unsupported("both bodies turn, and this method knows one moving body")
+        raise Unsupported("both bodies rotate, and this method supports one moving body")
     if query.motion_b.rests:
         return query
     query = query.swapped() if query.motion_b.angle else query
@@ -40,9 +41,7 @@ def one_mover(query: Query) -> Query:
 
 
 def about_origins(query: Query) -> Query:
-    """The same question with each body in a frame whose origin is the point about which it
-    turns.
-    """
+    """The same query with each body in a frame whose origin is its centre of rotation."""
     if not (query.motion.about.any() or query.motion_b.about.any()):
         return query
     a, pose_a, motion = _about_origin(query.a, query.pose_a, query.motion)
@@ -52,7 +51,7 @@ def about_origins(query: Query) -> Query:
 
 def _about_origin(body: Body, pose: Pose, motion: Motion) -> tuple[Body, Pose, Motion]:
     still = replace(motion, about=np.zeros(3))
-    if not (motion.angle and motion.about.any()):  # a translation has no point that it is about
+    if not (motion.angle and motion.about.any()):  # a translation has no centre of rotation
         return body, pose, still
     there = Pose(pose.quaternion, pose.apply(motion.about[None])[0])
     return shifted(body, tuple(motion.about.tolist())), there, still
@@ -69,9 +68,9 @@ def shifted(body: Body, origin: tuple[float, float, float]) -> Body:
 
 
 def seen_from(pose_b: Pose, pose_a: Pose, rest_b: Pose) -> Pose:
-    """Where A has to be for B at `rest_b` to find it as B at `pose_b` finds it at `pose_a`.
+    """The pose of A that is to B at `rest_b` as `pose_a` is to B at `pose_b`.
 
-    In double rounding; exact in the quaternion where B has not turned.
+    In double rounding; exact in the quaternion if B has not rotated.
     """
     turn = pose_a.quaternion
     offset = pose_a.position - pose_b.position
@@ -89,5 +88,5 @@ def product(p, q) -> np.ndarray:
 
 def unit(q: np.ndarray) -> np.ndarray:
     """The quaternion (4,) at length 1."""
-    q = q / np.abs(q).max()  # first, as the square of an unnormalised one can leave the doubles
+    q = q / np.abs(q).max()  # first, as the square of an unnormalised one can overflow
     return q / np.linalg.norm(q)

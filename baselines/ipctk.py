@@ -1,11 +1,11 @@
 """IPC Toolkit: exact triangle intersection, and continuous collision of vertices on straight lines
 (Tight-Inclusion).
 
-Bodies of every kind are triangle soups, so containment is not seen. The continuous test is
-documented for vertices on straight lines. With n = 1 a turn is refused; with n > 1 it is asked as
-n chords, and the answer is about the chords.
-The toolkit assumes that a step starts free of intersections, and sees nothing where it does not;
-the start is tested first, as its documentation asks. Touching counts as a hit.
+Bodies of every kind are triangle soups, so containment is not detected. The continuous test is
+documented for vertices on straight lines. With n = 1 a rotation is refused; with n > 1 it is
+approximated by n chords, and the answer is about the chords.
+The toolkit assumes that a step starts free of intersections and detects nothing otherwise; the
+start is tested first, as its documentation advises. Touching counts as a hit.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .contract import Method, MissingEngine, Tolerance, Verdict
 from .sampling import Discrete, Substeps
 from .units import Normalised
 
-CHORD = 1e-4  #: share of the radius, as FCL's default toc_err is of the step
+CHORD = 1e-4  #: share of the radius, as FCL's default toc_err is a share of the step
 
 
 @cache
@@ -52,21 +52,21 @@ class Ipctk(Discrete):
 
 class IpctkSubsteps(Substeps, Ipctk):
     name = "ipctk-substeps"
-    guarantee = "ipctk at n poses; blind between them"
+    guarantee = "ipctk at n sampled poses; misses contacts between samples"
 
 
 class IpctkCcd(Method):
-    """compute_collision_free_stepsize with TightInclusionCCD() as it comes: conservative_rescaling
+    """compute_collision_free_stepsize with a default TightInclusionCCD(): conservative_rescaling
     0.8, which stops early.
 
-    Slow where it hits: cubes of 12 faces head-on take 0.9 s, and more than a minute where their
-    edges meet in parallel.
+    Slow on hits: cubes of 12 faces head-on take 0.9 s, and more than a minute if their edges meet
+    in parallel.
     """
 
     name = "ipctk-ccd"
     engine, imports = "ipctk", "ipctk"
     configuration = "default"
-    questions = frozenset({"translation"})  # and "motion" where n > 1
+    questions = frozenset({"translation"})  # and "motion" if n > 1
     bodies = frozenset({"convex", "union", "mesh"})
     solid = False
     movers, about = 2, True
@@ -78,7 +78,7 @@ class IpctkCcd(Method):
     )
     parameters = {"n": 1, "max_iterations": 10_000_000}
     allowed = {"n": (1, inf), "max_iterations": (1, 2**31 - 1)}
-    cheapest = {"n": 2}  # with 1 it answers no motion; a translation is one chord whatever n is
+    cheapest = {"n": 2}  # with 1 it supports no rotation; a translation is one chord for any n
 
     def __init__(self, **parameters):
         super().__init__(**parameters)
@@ -117,16 +117,17 @@ class IpctkCcd(Method):
 
 
 class IpctkCcdExact(Normalised, IpctkCcd):
-    """conservative_rescaling = 1: the time as found. 1 ms on cubes head-on, within 1e-7.
+    """conservative_rescaling = 1: the unscaled time. 1 ms on cubes head-on, within 1e-7.
 
-    Where edges meet in parallel the search does not converge and ends at max_iterations, with a
-    time that is early: aligned cubes at 0.3 are 3e-3 early after 30 ms (1e4 iterations), 2e-4 after
-    0.4 s (1e5), 2e-4 after 3 s (1e6); the default is 1e7. A start within 1e-8 of touching can take
-    minutes whatever is set: the search is repeated until the time is not 0.
+    If edges meet in parallel, the search does not converge and ends at max_iterations with an early
+    time: aligned cubes at 0.3 are 3e-3 early after 30 ms (1e4 iterations), 2e-4 after 0.4 s (1e5),
+    2e-4 after 3 s (1e6); the default is 1e7. A start within 1e-8 of contact can take minutes with
+    any setting: the search is repeated until the time is not 0.
 
-    n = 256 is the smallest power of two with which the chords of a full turn stay within CHORD of
-    the radius from the arc. Of 120 hits and 120 clears with a turn, drawn from the standard run,
-    n = 16, 64, 256 miss 7, 0, 0 and call no clear one a hit; the median call takes 5.0, 9.5, 29 ms.
+    n = 256 is the smallest power of two for which the chords of a full rotation stay within CHORD
+    of the radius from the arc. On 120 hits and 120 clears with a rotation, drawn from the standard
+    run, n = 16, 64, 256 miss 7, 0, 0 and report no clear one as a hit; the median call takes 5.0,
+    9.5, 29 ms.
     """
 
     name = "ipctk-ccd-exact"

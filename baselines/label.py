@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 def name_of(label: str) -> str:
-    """'ofg k=8' -> 'ofg'. The empty text where there is no word."""
+    """'ofg k=8' -> 'ofg'. An empty label gives an empty string."""
     return next(iter(label.split()), "")
 
 

@@ -1,10 +1,10 @@
 """MuJoCo: signed distance of convex geoms at one pose or at substeps, and the sweep of its
 speculative contacts.
 
-A mesh geom is its convex hull, so closed meshes are refused, but for the -coacd methods, which
-decompose them. A union is one geom per piece, all pairs asked in a plain loop. MuJoCo stores mesh
-vertices as float32 after moving them to their inertia frame: an error of 1e-7 of the size that
-rounding the input does not remove, and that is not hidden here. It rejects flat meshes.
+A mesh geom is its convex hull, so closed meshes are refused except by the -coacd methods, which
+decompose them. A union is one geom per piece, with all pairs tested in a plain loop. MuJoCo stores
+mesh vertices as float32 after moving them to their inertia frame: an error of 1e-7 of the size,
+which rounding the input does not remove, and which is not hidden here. It rejects flat meshes.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .pieces import Decomposed
 from .sampling import Discrete, Substeps
 from .units import Normalised, normalised
 
-DISTMAX = 0  # only the sign is asked; with a large one libccd is wrong by 0.1 to 1 on tetrahedra
+DISTMAX = 0  # only the sign is used; with a large value libccd is wrong by 0.1 to 1 on tetrahedra
 
 
 def _mujoco():
@@ -39,7 +39,7 @@ class Mujoco(Discrete):
 
     name = "mujoco"
     engine, imports = "mujoco", "mujoco"
-    precision = "single"  # computes in doubles on vertices held as float32
+    precision = "single"  # computes in doubles on vertices stored as float32
     configuration = "default"
     bodies = frozenset({"convex", "union"})
     solid = True
@@ -50,7 +50,7 @@ class Mujoco(Discrete):
     )
 
     def options(self, mujoco, spec) -> None:
-        """Set what this configuration changes in the model."""
+        """Apply this configuration's changes to the model."""
 
     def build(self, query: Query):
         mujoco = _mujoco()
@@ -62,7 +62,7 @@ class Mujoco(Discrete):
         pairs = _pairs(query.a, query.b)
         data.mocap_pos[1], data.mocap_quat[1] = _place(query.pose_b)
         positions, turns = data.mocap_pos, data.mocap_quat
-        if query.motion_b.rests:  # A's alone are written at each call
+        if query.motion_b.rests:  # only A's are written at each call
             positions, turns = positions[:1], turns[:1]
         distance, kinematics = mujoco.mj_geomDistance, mujoco.mj_kinematics
 
@@ -78,7 +78,7 @@ class Mujoco(Discrete):
 
 
 class MujocoExact(Normalised, Mujoco):
-    # Bodies of 1e-6, and of 1e6 beside 1, are refused by the compiler in other units.
+    # The compiler rejects bodies of 1e-6, and of 1e6 beside 1, in other units.
     name = "mujoco-exact"
     configuration = "best effort"
     guarantee = (
@@ -102,57 +102,56 @@ class MujocoLibccd(Mujoco):
 
 class MujocoSubsteps(Substeps, Mujoco):
     name = "mujoco-substeps"
-    guarantee = "mujoco at n poses; blind between them"
+    guarantee = "mujoco at n sampled poses; misses contacts between samples"
 
 
 class MujocoExactSubsteps(Substeps, MujocoExact):
     name = "mujoco-exact-substeps"
-    guarantee = "mujoco-exact at n poses; blind between them"
+    guarantee = "mujoco-exact at n sampled poses; misses contacts between samples"
 
 
 class MujocoCoacd(Decomposed, MujocoExact):
     name = "mujoco-coacd"
     guarantee = (
-        "mujoco-exact on the pieces of CoACD at threshold 0.05, which are another body than the"
-        " mesh"
+        "mujoco-exact on the pieces of CoACD at threshold 0.05, which only approximate the mesh"
     )
 
 
 class MujocoCoacdSubsteps(Substeps, MujocoCoacd):
     name = "mujoco-coacd-substeps"
-    guarantee = "mujoco-coacd at n poses; blind between them"
+    guarantee = "mujoco-coacd at n sampled poses; misses contacts between samples"
 
 
 class MujocoSpeculative(Normalised, Method):
     """The sweep of mjENBL_SPECULATIVE over one step, with the time of impact recovered from the
     contact it makes.
 
-    MuJoCo sweeps only geoms that travel farther than their smallest half-extent; slower ones are
-    left to the discrete test of the end pose, as in a stepping loop, and get time 1. The time is
-    not exposed: a speculative contact is given the distance at which the solver would stop the body
-    on the surface. With stiffness k and damping b per step that is dist = -(1 - t - b) / k v, so
-    two settings of solref, b = 0 and b = 1, give (t - 1) v and t v, whose quotient holds t alone.
-    The impedance must be constant (solimp) for b to be what was set. Its advancement stops at 2 %
-    of the start distance, so the time is early by that share of the gap. A geom whose centre is not
-    the body's origin turns on an arc that MuJoCo takes for a chord.
+    MuJoCo sweeps only geoms that travel farther than their smallest half-extent; slower ones get
+    only the discrete test of the end pose, as in a stepping loop, and the time 1. The time is not
+    exposed: a speculative contact is given the distance at which the solver would stop the body on
+    the surface. With stiffness k and damping b per step that is dist = -(1 - t - b) / k v, so two
+    settings of solref, b = 0 and b = 1, give (t - 1) v and t v, whose quotient determines t. The
+    impedance must be constant (solimp) so that b has the value that was set. Its advancement stops
+    at 2 % of the start distance, so the time is early by that share of the gap. A geom whose centre
+    is not the body's origin moves on an arc, which MuJoCo approximates by a chord.
     """
 
     name = "mujoco-speculative"
     engine, imports = "mujoco", "mujoco"
-    precision = "single"  # computes in doubles on vertices held as float32
+    precision = "single"  # computes in doubles on vertices stored as float32
     configuration = "best effort"
     questions = frozenset({"translation", "motion"})
     bodies = frozenset({"convex", "union"})
     solid = True
     gives_time = True
-    # of the start distance, which the path is no shorter than
+    # of the start distance, which the path is at least as long as
     tolerance = Tolerance(step=0.02, sides="alarms")
     guarantee = (
-        "conservative advancement to 2 % of the start distance: hits closer than that are called"
-        " early; slow movers at the end only"
+        "conservative advancement to 2 % of the start distance: hits closer than that are "
+        "reported early; slow movers are tested at the end only"
     )
 
-    IMPEDANCE = 0.9999  # the largest MuJoCo takes
+    IMPEDANCE = 0.9999  # the largest value that MuJoCo accepts
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
@@ -194,7 +193,7 @@ class MujocoSpeculative(Normalised, Method):
                 speculative = damped != undamped
                 if (
                     not speculative.all()
-                ):  # a real contact does not depend on solref: in touch at the start
+                ):  # a real contact does not depend on solref: the bodies touch at the start
                     return Verdict(True, 0.0)
                 times = damped / (damped - undamped)
                 return Verdict(True, float(np.clip(times.min(), 0, 1)))
@@ -224,13 +223,13 @@ def _compile(mujoco, spec):
         model = spec.compile()
     except ValueError as error:
         raise Unsupported(
-            f"mujoco compiles no geom of these bodies: {str(error).strip().splitlines()[0]}"
+            f"mujoco cannot compile a geom of these bodies: {str(error).strip().splitlines()[0]}"
         ) from error
     return model, mujoco.MjData(model)
 
 
 def _pairs(a: Body, b: Body) -> list[tuple[int, int]]:
-    """Geoms are numbered A's pieces first."""
+    """Pairs of geoms, which are numbered with A's pieces first."""
     return list(product(range(len(a.pieces)), range(len(a.pieces), len(a.pieces) + len(b.pieces))))
 
 

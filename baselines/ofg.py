@@ -1,4 +1,4 @@
-"""Opposing Face Geometry itself, behind the same contract as the engines."""
+"""Opposing Face Geometry itself, under the same contract as the engines."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ _REPAIRED = frozenset(
 
 
 class Article(Method):
-    """The article's steps and nothing else: no acceleration, no repair. What its own arithmetic
-    costs, and what it answers.
+    """The article's steps only, without acceleration or repairs: the cost and the answers of its
+    own arithmetic.
 
-    k: faces per selection; "inf" for all. toi, order, broad: his two ways to the time, the order of
-    his tests, and step 1 at the start pose, as it reads literally, or with swept spheres. `ofg`
-    gives the same answers to the same options, sooner.
+    k: faces per selection; "inf" for all. toi, order, broad: the article's two ways to compute the
+    time, the order of its tests, and step 1 at the start pose, the literal reading, or with swept
+    spheres. `ofg` gives the same answers with the same options, faster.
     """
 
     name = "ofg-article"
@@ -50,8 +50,7 @@ class Article(Method):
     decomposes = True
     gives_time = True
     guarantee = (
-        "a hit is a contact of faces to double rounding; nothing is promised about what it does not"
-        " find"
+        "a hit is a contact of faces to double rounding; contacts may be missed without bound"
     )
     parameters = {
         "k": 8,
@@ -79,14 +78,14 @@ class Article(Method):
 
 
 class OpposingFaceGeometry(Method):
-    """The article with accelerations that change no answer; with `repairs` (see ofg.REPAIRS: "all",
-    "all-but-X", "X", "X+Y") more.
+    """The article with accelerations that do not change the answer, and with `repairs` (see
+    ofg.REPAIRS: "all", "all-but-X", "X", "X+Y") that do.
 
-    k: faces per selection; "inf" for all. concave: how a body that is not convex is asked: "object"
-    (OFG picks one pair of pieces; a mesh is first decomposed by CoACD, cached), "undivided" (its
-    surface as one mesh), "all-pairs" of pieces. With adaptive k, which needs no convexity, a mesh
-    is asked as it is: CoACD's pieces are not quite the mesh, and 1 of 9 linked tori 1e-5 deep was
-    missed in them.
+    k: faces per selection; "inf" for all. concave: how a body that is not convex is tested:
+    "object" (OFG selects one pair of pieces; a mesh is first decomposed by CoACD, cached),
+    "undivided" (its surface as one mesh), "all-pairs" of pieces. With adaptive k, which does not
+    need convexity, a mesh is tested undivided: CoACD's pieces only approximate the mesh, and 1 of 9
+    linked tori 1e-5 deep was missed in them.
     """
 
     name = "ofg"
@@ -99,8 +98,8 @@ class OpposingFaceGeometry(Method):
     movers, about = 2, True
     gives_time = True
     guarantee = (
-        "a hit is a contact of faces to double rounding; without repairs nothing is promised about"
-        " what it does not find"
+        "a hit is a contact of faces to double rounding; without repairs contacts may be missed "
+        "without bound"
     )
     parameters = {
         "k": 8,
@@ -150,13 +149,13 @@ class OpposingFaceGeometry(Method):
 
     @property
     def decomposes(self) -> bool:
-        """Whether meshes are decomposed before they are asked."""
+        """Whether meshes are decomposed before the query."""
         options = self.options()
         return options.get("concave") != "undivided" and not options.get("adaptive_k")
 
     def options(self) -> dict:
-        """What the core is asked with: the repairs, overruled by what is given by name. ValueError
-        for an unknown repair.
+        """The core's options: the repairs, overridden by options given by name. ValueError for
+        an unknown repair.
         """
         given = {
             name: value
@@ -171,7 +170,7 @@ class OpposingFaceGeometry(Method):
 
 
 def _check(name: str, options: Callable[[], dict]) -> None:
-    """ValueError where OFG refuses the options."""
+    """Raise ValueError if OFG rejects the options."""
     try:
         check_options(**options())
     except (TypeError, ValueError) as error:

@@ -1,4 +1,6 @@
-"""A parameter of a method: whether a value is of its kind and within what the method declares."""
+"""Checks that a parameter's value has the right type and lies in the range that the method
+declares.
+"""
 
 from __future__ import annotations
 
@@ -6,14 +8,14 @@ from collections.abc import Sequence
 from math import inf, isfinite
 from typing import Any
 
-#: (least, most) of a number, or the words that a text may be
+#: (least, most) of a number, or the allowed strings
 Allowed = Sequence[Any]
 
 
 def fault(value: Any, default: Any, allowed: Allowed | None, unlimited: bool) -> str | None:
-    """What the value must be, where it is not that: "must be ..."; None where it is.
+    """What the value must be, if it is not: "must be ..."; None if it is valid.
 
-    default: tells the kind. allowed: None for every value of that kind. unlimited: inf will do.
+    default: gives the type. allowed: None for every value of that type. unlimited: inf is allowed.
     """
     if unlimited and value in ("inf", inf):
         return None
@@ -29,7 +31,7 @@ def fault(value: Any, default: Any, allowed: Allowed | None, unlimited: bool) ->
     return f"must be {least} or more" if most == inf else f"must be from {least} to {most}"
 
 
-_KINDS = {bool: "True or False", int: "a whole number", float: "a finite number", str: "a word"}
+_KINDS = {bool: "True or False", int: "a whole number", float: "a finite number", str: "a string"}
 
 
 def _of_kind(value: Any, default: Any) -> bool:

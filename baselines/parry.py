@@ -1,9 +1,9 @@
 """parry in float64 through py-parry3d: hulls and triangle meshes, at one pose or at substeps in one
 batched call.
 
-A union is parry's own group of hulls, on the mesh side the soup of the pieces' faces. One thread
-only: what is compared is the algorithm, and with more its "first" pose of a batch need not be the
-first.
+A union is parry's own group of hulls, or for the mesh methods the triangle soup of all pieces. One
+thread only: the comparison is of algorithms, and with more threads the "first" pose of a batch need
+not be the first.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ def _parry():
         raise MissingEngine(
             "py-parry3d is not installed; install it with: pip install py-parry3d"
         ) from error
-    # has to come before anything else is asked, the number of threads included
+    # must come before any other call, including that for the number of threads
     _internal.set_num_threads(1)
     return _internal
 
 
 class Parry(Discrete):
-    # Hulls are called a hit at gaps of 1e-9 and less on some rotated cubes; axis-aligned ones are
-    # right down to 1e-12.
+    # Hulls are reported as hits at gaps of 1e-9 and less on some rotated cubes; axis-aligned ones
+    # are correct down to 1e-12.
     name = "parry"
     engine, imports = "py-parry3d", "py_parry3d"
     configuration = "default"
@@ -54,7 +54,7 @@ class Parry(Discrete):
                 for p in body.pieces
             ]
         except ValueError as error:
-            raise Unsupported(f"parry makes no hull of body '{body.name}': {error}") from error
+            raise Unsupported(f"parry cannot make a hull of body '{body.name}': {error}") from error
 
     def world(self, query: Query):
         group, a, b = _parry().CollisionGroup, self.shapes(query.a), self.shapes(query.b)
@@ -107,17 +107,17 @@ class ParryExact(Normalised, Parry):
 
 class ParryExactSubsteps(_Batch, ParryExact):
     name = "parry-exact-substeps"
-    guarantee = "parry-exact at n poses; blind between them"
+    guarantee = "parry-exact at n sampled poses; misses contacts between samples"
 
 
 class ParrySubsteps(_Batch, Parry):
     name = "parry-substeps"
-    guarantee = "parry at n poses; blind between them"
+    guarantee = "parry at n sampled poses; misses contacts between samples"
 
 
 class ParryMeshSubsteps(_Batch, ParryMesh):
     name = "parry-mesh-substeps"
-    guarantee = "parry-mesh at n poses; blind between them"
+    guarantee = "parry-mesh at n sampled poses; misses contacts between samples"
 
 
 METHODS = [Parry, ParryExact, ParryExactSubsteps, ParryMesh, ParrySubsteps, ParryMeshSubsteps]

@@ -1,5 +1,5 @@
-"""Concave meshes for engines that know convex shapes only: the mesh is decomposed by CoACD first,
-as their documentation advises.
+"""Concave meshes for engines that support convex shapes only: CoACD first decomposes the mesh,
+as the engines' documentation advises.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from .contract import Unsupported, Verdict
 
 
 class Decomposed:
-    """Put this before a method of unions: `class BulletCoacd(Decomposed, Bullet)`. Other bodies
-    pass as they are.
+    """Put this before a method that supports unions: `class BulletCoacd(Decomposed, Bullet)`. Other
+    bodies are passed on unchanged.
 
-    The pieces are another body than the mesh, by CoACD's threshold: what a verdict is worth near
-    the surface is the decomposition's doing.
+    The pieces only approximate the mesh, within CoACD's threshold: near the surface, the verdict
+    depends on the decomposition.
     """
 
     bodies = frozenset({"convex", "union", "mesh"})

@@ -1,10 +1,10 @@
 """Rapier 3D (parry in float32): overlap, and linear and nonlinear shape casts, on hulls and on
 triangle meshes.
 
-A union is Rapier's own compound shape on the hull side, the soup of the pieces' faces on the mesh
-side. All numbers are float32 inside: overlaps are right to about 1e-6 of the size on boxes and
-meshes, hulls call gaps below 1e-4 hits. Rapier has no setting that makes it more exact; what can be
-done is to choose units and origin, and to cast a turn in legs.
+A union is Rapier's own compound shape of hulls, or for the mesh methods the triangle soup of all
+pieces. All numbers are float32 internally: overlaps are correct to about 1e-6 of the size on boxes
+and meshes; for hulls, gaps below 1e-4 are reported as hits. Rapier has no setting that makes it
+more accurate; the best effort chooses units and origin, and casts a rotation in legs.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class _Mesh:
 
 
 class _Overlap(Discrete):
-    """QueryPipeline.intersect_shape of A against a world that holds B."""
+    """QueryPipeline.intersect_shape of A against a world that contains B."""
 
     configuration = "default"
     tolerance = GJK
@@ -98,7 +98,7 @@ class RapierExact(Normalised, Rapier):
 
 class RapierExactSubsteps(Substeps, RapierExact):
     name = "rapier-exact-substeps"
-    guarantee = "rapier-exact at n poses; blind between them"
+    guarantee = "rapier-exact at n sampled poses; misses contacts between samples"
 
 
 class RapierMesh(_Mesh, _Overlap):
@@ -108,20 +108,20 @@ class RapierMesh(_Mesh, _Overlap):
 
 class RapierSubsteps(Substeps, Rapier):
     name = "rapier-substeps"
-    guarantee = "rapier at n poses; blind between them"
+    guarantee = "rapier at n sampled poses; misses contacts between samples"
 
 
 class RapierMeshSubsteps(Substeps, RapierMesh):
     name = "rapier-mesh-substeps"
-    guarantee = "rapier-mesh at n poses; blind between them"
+    guarantee = "rapier-mesh at n sampled poses; misses contacts between samples"
 
 
 class _Cast(Method):
     """cast_shape for translations, cast_shape_nonlinear for motions. A motion is cast in `legs`
     equal parts of the step.
 
-    A nonlinear cast often ends with the status FAILED and a time that is right (0.27650 for cubes
-    that meet there); it counts as a hit, as in Rapier's own motion clamping.
+    A nonlinear cast often ends with the status FAILED and a correct time (0.27650 for cubes that
+    meet there); it counts as a hit, as in Rapier's own motion clamping.
     """
 
     questions = frozenset({"translation", "motion"})
@@ -181,14 +181,14 @@ class RapierCast(_Hull, _Cast):
 
 
 class RapierCastMesh(_Mesh, _Cast):
-    # A nonlinear cast of two meshes costs 2.3 ms for cubes of 12 faces, 64 ms and more for real
+    # A nonlinear cast of two meshes takes 2.3 ms for cubes of 12 faces, 64 ms and more for real
     # ones.
     name = "rapier-cast-mesh"
     guarantee = "conservative advancement in float32 per triangle pair; surfaces only"
 
 
 class _CastInLegs(_Cast):
-    # One nonlinear cast missed 24 of 42 hits of bodies that spin by half a turn beside another; 8
+    # One nonlinear cast missed 24 of 42 hits of bodies that rotate by half a turn beside another; 8
     # legs, or 32, missed none of them.
     configuration = "best effort"
     parameters = {"legs": 8}
@@ -211,7 +211,7 @@ def _place(pose: Pose) -> tuple[tuple, tuple]:
 
 
 def _world(shape, pose: Pose):
-    """A world that holds one fixed body; it must outlive its query pipeline."""
+    """A world that contains one fixed body; it must outlive its query pipeline."""
     rapier = _rapier()
     world = rapier.PhysicsWorld()
     handle = world.add_body(rapier.RigidBody.fixed())

@@ -1,4 +1,6 @@
-"""Find methods by name, and make them from the words of a configuration or of the command line."""
+"""The registry of methods: find them by name, and make them from specifications in a
+configuration or on the command line.
+"""
 
 from __future__ import annotations
 
@@ -20,20 +22,18 @@ from .native import library
 
 
 class UnknownMethod(ValueError):
-    """No method has this name, or its specification cannot be read; the message says what can be
-    done.
-    """
+    """No method has this name, or its specification is invalid; the message gives the remedy."""
 
 
-GROUP = (  # entry points of installed packages that bring methods: a class, or a list of them
+GROUP = (  # entry points of installed packages that provide a method or a list of them
     "ofg.methods"
 )
 
 
 @cache
 def methods() -> dict[str, type[Method]]:
-    """name -> class of every method in `baselines/` and of installed packages, by name. Imports no
-    engine of `baselines/`.
+    """name -> class of every method in `baselines/` and of installed packages, by name. Imports
+    no engine of `baselines/`.
     """
     import baselines
 
@@ -46,7 +46,7 @@ def methods() -> dict[str, type[Method]]:
 
 
 def load_file(path) -> dict[str, type[Method]]:
-    """The methods of a reader's own Python file, which ends with METHODS = [Class, ...]; they join
+    """Load the methods of a user's Python file, which ends with METHODS = [Class, ...]; they join
     `methods()`.
 
     ValueError if the file does not exist or declares none.
@@ -76,8 +76,8 @@ def load_file(path) -> dict[str, type[Method]]:
 
 
 def run_file(path: Path, what: str, name: str, defines: str) -> ModuleType:
-    """The module called `name` that a reader's own Python file makes. ValueError, which begins with
-    `what`, if it is not there or no Python file.
+    """The module called `name` made from a user's Python file. ValueError, which begins with
+    `what`, if the file does not exist or is not a Python file.
     """
     if not path.is_file():
         raise ValueError(
@@ -92,8 +92,8 @@ def run_file(path: Path, what: str, name: str, defines: str) -> ModuleType:
 
 
 def make(spec: str) -> list[Method]:
-    """'ofg k=4,8 toi=velocity' -> the configurations it names: commas give several, typed by the
-    parameter's default.
+    """'ofg k=4,8 toi=velocity' -> the configurations that it names: commas separate values, whose
+    type is the default's.
 
     UnknownMethod with the closest names; MissingEngine if the method's engine is not installed.
     """
@@ -140,7 +140,7 @@ def available(cls: type[Method]) -> str | None:
 
 
 def version(cls: type[Method]) -> str:
-    """Version of the engine, as the manifest records it; 'absent' where it is not installed."""
+    """Version of the engine, as in the manifest; 'absent' if it is not installed."""
     if found := library.version(cls.engine):
         return found
     try:
@@ -155,8 +155,8 @@ def _entered(entry) -> list[type[Method]]:
         loaded = entry.load()
     except Exception as error:
         raise ValueError(
-            f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded"
-            f" ({type(error).__name__}: {error}); mend or uninstall its package."
+            f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded "
+            f"({type(error).__name__}: {error}); repair or uninstall its package."
         ) from error
     found = list(loaded) if isinstance(loaded, (list, tuple)) else [loaded]
     if not found or not all(isinstance(cls, type) and issubclass(cls, Method) for cls in found):
@@ -184,8 +184,8 @@ def _add(classes, found: dict[str, type[Method]]) -> None:
 
 
 def _file(cls) -> str:
-    """Where a class was written, as its author calls it."""
-    return getattr(cls, "__module__", "an own file").removeprefix("baselines_file_")
+    """The file in which a class is defined, for error messages."""
+    return getattr(cls, "__module__", "a user's file").removeprefix("baselines_file_")
 
 
 def _find(name: str) -> type[Method]:
@@ -195,8 +195,8 @@ def _find(name: str) -> type[Method]:
     close = difflib.get_close_matches(name, known, n=3, cutoff=0.4)
     closest = f" Closest: {', '.join(close)}." if close else ""
     raise UnknownMethod(
-        f"No method is named '{name}'.{closest} `ofg-bench list` prints all {len(known)}; a method "
-        "of your own is given by its file."
+        f"No method is named '{name}'.{closest} `ofg-bench list` prints all {len(known)}; give "
+        "your own method by its file."
     )
 
 

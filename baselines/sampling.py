@@ -1,4 +1,4 @@
-"""Discrete engines: one overlap test at a pose, and sweeps by testing the poses on the way."""
+"""Discrete engines: one overlap test at a pose, and sweeps that test sampled poses."""
 
 from __future__ import annotations
 
@@ -12,25 +12,22 @@ from ofg import Pose, Query
 from .contract import Method, Verdict
 from .frames import seen_from
 
-#: pose of A (and of B, see `places_b`) -> the engine's own form, made before the clock starts
+#: pose of A (and of B, see `places_b`) -> the engine's own form, made before timing starts
 Place = Callable[..., Any]
-Test = Callable[[Any], bool]  #: what `place` gave -> do A and B overlap?
+Test = Callable[[Any], bool]  #: output of `place` -> whether A and B overlap
 
 
 class Discrete(Method):
     """An engine that answers `overlap` at one pose. Subclasses write `build`."""
 
     questions = frozenset({"overlap"})
-    #: whether `place` takes B's pose as its second argument; it gets it where B moves. If not, B
-    #: stays
-    #: at query.pose_b, and A is placed as B would see it
+    #: whether `place` takes B's pose as its second argument; it gets it if B moves. If not, B stays
+    #: at query.pose_b, and A is placed in B's frame
     places_b: ClassVar[bool] = False
 
     @abstractmethod
     def build(self, query: Query) -> tuple[Place, Test]:
-        """Both bodies in the engine's form, B at query.pose_b unless `place` is told another
-        pose.
-        """
+        """Both bodies in the engine's form, B at query.pose_b unless `place` gets another pose."""
 
     def prepare(self, query: Query) -> Callable[[], Verdict]:
         self.refuse(query)
@@ -41,7 +38,7 @@ class Discrete(Method):
         return lambda: Verdict(bool(test(pose)))
 
     def poses(self, query: Query, t: float) -> tuple[Pose, ...]:
-        """What `place` is called with for time t of the step."""
+        """The arguments of `place` for time t of the step."""
         pose_a = query.motion.pose_at(query.pose_a, t)
         if query.motion_b.rests:
             return (pose_a,)
@@ -50,11 +47,11 @@ class Discrete(Method):
 
 
 class Substeps(Discrete):
-    """The sweep as the users of a discrete engine run it: the overlap test at t = i/n for i = 1 ..
-    n, first hit wins.
+    """A sweep as users of a discrete engine run it: the overlap test at t = i/n for i = 1 .. n, up
+    to the first hit.
 
-    The start pose is not tested: in a stepping loop it was the end pose of the step before. n = 1
-    is the end pose only. The time reported is that of the first sampled hit, so it is late by up to
+    The start pose is not tested: in a stepping loop it was the end pose of the previous step. n = 1
+    is the end pose only. The reported time is that of the first sampled hit, so it is late by up to
     1/n and never early. Put this class before the engine's Discrete one: `class
     BoxSubsteps(Substeps, Box)`.
     """

@@ -1,5 +1,5 @@
-"""How far from the truth an engine says that an answer may be: declared by each method, credited to
-each by one rule.
+"""The documented tolerance of an engine: declared by each method and credited to each by one
+rule.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ class Tolerance:
     three parts.
 
     length: in the units of the query. relative: a share of the size of the larger body. step: a
-    share of the path of the step, the length of the displacement plus angle times size. sides:
-    "alarms" (a clear pair called a hit), "misses" or "both". ValueError for a negative number or
-    another side.
+    share of the path of the step, which is the length of the displacement plus angle times size.
+    sides: "alarms" (a clear pair reported as a hit), "misses" or "both". ValueError for a negative
+    number or another side.
     """
 
     length: float = 0.0
@@ -32,7 +32,8 @@ class Tolerance:
             0 <= v < np.inf for v in (self.length, self.relative, self.step)
         ):
             raise ValueError(
-                f"{self} is no tolerance: numbers from 0 on, and sides one of {', '.join(SIDES)}."
+                f"{self} is not a tolerance: use numbers from 0 on, and sides one of "
+                f"{', '.join(SIDES)}."
             )
 
     def reach(self, size, path):
@@ -40,7 +41,7 @@ class Tolerance:
         return self.length + self.relative * np.asarray(size) + self.step * np.asarray(path)
 
     def covers(self, side: str) -> bool:
-        """Whether it is of a side, "alarms" or "misses"."""
+        """Whether it covers a side, "alarms" or "misses"."""
         return self.sides in ("both", side)
 
     def __str__(self):

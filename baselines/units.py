@@ -1,10 +1,10 @@
 """Best effort, part one: the units and the origin that suit an engine.
 
 Engines have absolute tolerances and margins, and lose digits far from the origin. A careful user
-measures in units that suit the engine and puts the origin beside the bodies; so do the methods
-below. Both cost no accuracy: units are powers of two, and the origin is B's position, subtracted in
-double. Which unit suits an engine is counted by `experiments/studies/tuning.py`, on cases that no
-run counts.
+chooses units that suit the engine and puts the origin near the bodies; so do the methods below.
+Neither costs accuracy: units are powers of two, and the origin is B's position, subtracted in
+double. `experiments/studies/tuning.py` counts which unit suits an engine, on cases that no run
+uses.
 """
 
 from __future__ import annotations
@@ -25,14 +25,16 @@ TABLE = Path(__file__).with_name("units.csv")  #: counts of wrong answers by met
 
 
 def best(rows: list[dict[str, str]]) -> float:
-    """The unit of the row with the fewest wrong, then fewest unanswered, then the nearest to 1."""
+    """The unit of the row with the fewest wrong, then the fewest unanswered, then the nearest to
+    1.
+    """
     key = {float(r["unit"]): (int(r["wrong"]), int(r["unanswered"])) for r in rows}
     return min(key, key=lambda unit: (*key[unit], abs(math.log2(unit))))
 
 
 @cache
 def tuned() -> dict[str, float]:
-    """method -> its unit, by the counts of TABLE."""
+    """method -> its unit, from the counts in TABLE."""
     with TABLE.open(newline="") as file:
         rows = list(csv.DictReader(file))
     names = dict.fromkeys(row["method"] for row in rows)
@@ -42,18 +44,18 @@ def tuned() -> dict[str, float]:
 class Normalised:
     """Put this before a method: `class FclExact(Normalised, FclConvex)`.
 
-    A length in its tolerance is in the method's own unit, so that what it declares of a query is a
-    share of the size of the larger body, which is at least the radius that gives the unit.
+    A length in its tolerance is in the method's own unit, so for a query it becomes a share of the
+    size of the larger body, which is at least the radius that defines the unit.
     """
 
-    #: where it is not that of the method behind this class
+    #: if it is not that of the method behind this class
     own_tolerance: ClassVar[Tolerance | None] = None
 
     @property
     def length(self) -> float:
         """The radius that the smaller body gets, within a factor of sqrt(2).
 
-        As tuned for the method, or for the one that it is derived from; 1 where none is.
+        As tuned for the method, or for the method from which it is derived; 1 if neither is tuned.
         """
         names = (cls.__dict__.get("name") for cls in type(self).__mro__)
         return next((tuned()[name] for name in names if name in tuned()), 1.0)
@@ -69,9 +71,9 @@ class Normalised:
 
 
 def normalised(query: Query, length: float) -> Query:
-    """The same question in other units, with B at the origin at the start.
+    """The same query in other units, with B at the origin at the start.
 
-    Times of impact are as they were.
+    Times of impact are unchanged.
     """
     unit = 2.0 ** round(math.log2(length / min(query.a.radius, query.b.radius)))
     offset = query.pose_a.position - query.pose_b.position
@@ -86,7 +88,7 @@ def normalised(query: Query, length: float) -> Query:
 
 @lru_cache(maxsize=64)
 def scaled(body: Body, unit: float) -> Body:
-    """The body times a power of two: exact, so nothing about it has to be checked again."""
+    """The body scaled by a power of two: exact, so no check needs repeating."""
     if unit == 1:
         return body
     pieces = () if body.kind != "union" else tuple(scaled(piece, unit) for piece in body.pieces)

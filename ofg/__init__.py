@@ -1,5 +1,5 @@
-"""Opposing Face Geometry (Eli Kara, GameDev.net 2004): a collision test that looks only at the
-faces that oppose each other.
+"""Opposing Face Geometry (Eli Kara, GameDev.net 2004): a collision test that examines only the
+faces of two bodies that oppose each other.
 """
 
 from .algorithm import (

@@ -27,42 +27,49 @@ MOST_THREADS = 256
 def discrete(
     a: Body, b: Body, pose_a: Pose = Pose(), pose_b: Pose = Pose(), *, k: int = 8, **options: Any
 ) -> Answer:
-    """Discrete OFG in eight steps: do the surfaces of `a` and `b` meet at these poses?
+    """Discrete OFG in eight steps: do the surfaces of `a` and `b` intersect at these poses?
 
-    k: faces in each selection. At k no less than the number of faces the answer is that of testing
-    all pairs of faces. Without repairs a body wholly inside another is not seen, and k too small
-    misses.
+    k: faces in each selection. If k is at least the number of faces, the answer equals that of
+    testing all pairs of faces. Without repairs, a body wholly inside another is not detected, and
+    too small a k misses contacts.
 
-    Options of all calls:
-    order: of a sweep's tests. "ends" (the start, the end, then the virtual edges: a hit at an end
-    has the time 0 or 1 and needs no estimate) or "steps" (the article's list read literally:
-    virtual edges first). toi: how a hit between the ends gets its time. "velocity" (the parameter
-    at which the virtual edge meets the face, put on the real motion), "halving" (the article's
-    second way read literally: move half of the step and test the faces; if none met, move half of
-    what is left, and so on; NaN where no move meets), "bisection" (halving with the bracket kept)
-    or "none". iterations: halvings at most (20: a bisection's bracket is then 1e-6 of the step; its
-    later end is returned). broad: "swept" (step 1 with bounding spheres swept along the motion) or
-    "start" (at the start pose, the literal reading). The default stays "swept" with repairs="none":
-    step 1 at the start loses fast movers before any other repair can act. concave: "object" (OFG at
-    the object level picks one pair of pieces), "undivided" (the surface as one mesh) or "all-pairs"
-    of pieces. precision: "double" or "float" (the relative pose is in double always). screen: True
-    to let a plane between the whole bodies settle "no" before the steps. The answers are the same,
-    sooner where bodies are near and apart, soonest in `discrete_many`; the counts are then of what
-    was done. Adaptive k always does it. repairs: "none", "all", "all-but-X", "X" or "X+Y" of the
-    names below; or one by one: nearest="point-triangle" (point-triangle: how faces are ranked;
-    "centroid" in the article), adaptive_k=True (adaptive-k), broad="swept" (swept-spheres),
-    both_vertices=True (both-vertices), edge_edge=True (edge-edge), selection_times=3
-    (selection-times: at how many times of the step faces are selected), arc_tolerance=1e-6 (arcs:
-    chords stray by no more than this share of A's radius), containment=True (containment),
-    concave="all-pairs" (all-pieces), end_moment=True (end-moment: a hit that only the end shows is
-    given its moment by bisection), piece_times=3 (pieces-over-time: pieces are picked at the start,
-    the end and where the centres pass closest), earliest=True (earliest).
+    The options below apply to all calls.
+    order: order of the tests of a sweep. "ends": the start, the end, then the virtual edges, so a
+    hit at an end has the time 0 or 1 and needs no estimate. "steps": the article's list read
+    literally, virtual edges first.
+    toi: how the time of impact of a hit between the ends is computed. "velocity": the parameter at
+    which the virtual edge meets the face, placed on the real motion. "halving": the article's
+    second method read literally: move half of the step and test the faces; if none meet, move half
+    of the remainder, and so on; NaN if no move meets. "bisection": halving that keeps the bracket.
+    "none": no time.
+    iterations: maximum number of halvings (20: the bracket of a bisection is then 1e-6 of the step;
+    its later end is returned).
+    broad: "swept" (step 1 uses bounding spheres swept along the motion) or "start" (at the start
+    pose, the literal reading). The default stays "swept" with repairs="none": step 1 at the start
+    pose loses fast movers before any other repair can act.
+    concave: "object" (OFG at the object level selects one pair of pieces), "undivided" (the surface
+    as one mesh) or "all-pairs" (all pairs of pieces).
+    precision: "double" or "float" (the relative pose is always in double).
+    screen: True lets a separating plane between the whole bodies settle "no" before the steps. The
+    answers are the same. They come sooner for bodies that are near but apart, soonest in
+    `discrete_many`; the counts then cover only the work done. Adaptive k always screens.
+    repairs: "none", "all", "all-but-X", "X" or "X+Y" of the names in parentheses below; or set one
+    by one:
+    nearest="point-triangle" (point-triangle): how faces are ranked; the article uses "centroid".
+    adaptive_k=True (adaptive-k), broad="swept" (swept-spheres), both_vertices=True (both-vertices),
+    edge_edge=True (edge-edge), containment=True (containment), concave="all-pairs" (all-pieces),
+    earliest=True (earliest).
+    selection_times=3 (selection-times): number of times of the step at which faces are selected.
+    arc_tolerance=1e-6 (arcs): chords deviate from the arcs by at most this share of A's radius.
+    end_moment=True (end-moment): a hit found only at the end gets its time by bisection.
+    piece_times=3 (pieces-over-time): pieces are selected at the start, at the end and where the
+    centres pass closest.
 
-    Ranges: bodies whose largest coordinate is between 1e-60 and 1e60, with precision="float"
-    between 1e-10 and 1e10; positions and motions as Pose and Motion say, with precision="float"
-    those of A relative to B up to 1e10. Raises TypeError for what is of another type, ValueError
-    for an option that is unknown or a value that is out of range. Source: Kara, "Opposing Face
-    Geometry", GameDev.net 2004.
+    Ranges: the largest coordinate of a body lies between 1e-60 and 1e60, or with precision="float"
+    between 1e-10 and 1e10; positions and motions as for Pose and Motion, with precision="float"
+    those of A relative to B up to 1e10. Raises TypeError for a value of the wrong type, ValueError
+    for an unknown option or a value out of range. Source: Kara, "Opposing Face Geometry",
+    GameDev.net 2004.
     """
     return _ask(False, a, b, pose_a, pose_b, Motion(), Motion(), OFG, k=k, **options)
 
@@ -81,7 +88,7 @@ def translational_sweep(
     """Translational sweep in six steps: `a` moves by `displacement` (and `b` by `displacement_b`),
     each (3,), over t in [0, 1].
 
-    Options as of `discrete`. Source: part 3 of the article, "Solving the discrete time problem".
+    Options as for `discrete`. Source: part 3 of the article, "Solving the discrete time problem".
     """
     return _ask(
         True,
@@ -108,34 +115,35 @@ def rotational_sweep(
     k: int = 8,
     **options: Any,
 ) -> Answer:
-    """Rotational sweep: `a` (and `b`) turn and translate as their motions say, about the origins of
-    their frames or about other points of theirs. The virtual edges are chords of the true paths,
-    seen from `b`. Options as of `discrete`. Source: part 3 of the article, "Solving for rotating
-    objects".
+    """Rotational sweep: `a` (and `b`) rotate and translate by their motions.
+
+    Each rotates about the origin of its frame, or about another point given by its motion. The
+    virtual edges are chords of the true paths in the frame of `b`. Options as for `discrete`.
+    Source: part 3 of the article, "Solving for rotating objects".
     """
     return _ask(True, a, b, pose_a, pose_b, motion_a, motion_b, OFG, k=k, **options)
 
 
 def ask(query: Query, *, k: int = 8, **options: Any) -> Answer:
-    """The answer to a Query, by the variant that its question names."""
+    """Answer a Query with the variant for its question."""
     return _ask(*_asked(query), OFG, k=k, **options)
 
 
 def article(query: Query, *, k: int = 8, broad: str = "start", **options: Any) -> Answer:
-    """The article's steps and nothing else: no acceleration and no repair. ARTICLE.md goes through
-    it sentence by sentence.
+    """Run the article's steps only, without acceleration or repairs. ARTICLE.md discusses the
+    article sentence by sentence.
 
-    broad: step 1 of a sweep at the start pose, as it reads literally, or "swept". Further options:
-    toi, order, iterations, precision, as of `discrete`. `ask` with the same options gives the same
-    answers, sooner. TypeError for another option.
+    broad: "start" (step 1 of a sweep at the start pose, the literal reading) or "swept". Further
+    options: toi, order, iterations, precision, as for `discrete`. `ask` with the same options gives
+    the same answers, faster. Raises TypeError for any other option.
     """
     check_article(options)
     return _ask(*_asked(query), ARTICLE, k=k, broad=broad, **options)
 
 
 def brute_force(query: Query, *, precision: str = "double") -> Answer:
-    """All faces against all faces; in a sweep also every virtual edge of A against every face of B,
-    with the earliest time. Bodies are undivided.
+    """Test all faces against all faces; in a sweep, also every virtual edge of A against every face
+    of B, with the earliest time. Bodies are undivided.
     """
     return _ask(*_asked(query), BRUTE_FORCE, precision=precision)
 
@@ -150,11 +158,11 @@ def discrete_many(
     threads: int | None = 1,
     **options: Any,
 ) -> Answers:
-    """`discrete` for n pairs of poses in one call, without the interpreter lock.
+    """Run `discrete` for n pairs of poses in one call, without holding the interpreter lock.
 
     poses_a, poses_b: sequences of n Pose, or (n, 7) arrays of quaternion (w, x, y, z) and position;
-    one Pose stands for n of it. threads: how many, 1 to 256; None for one per core. Answers do not
-    depend on it.
+    a single Pose is used for all n. threads: number of threads, 1 to 256; None for one per core.
+    The answers do not depend on it.
     """
     return _many(False, a, b, poses_a, poses_b, Motion(), Motion(), OFG, threads, k=k, **options)
 
@@ -171,12 +179,12 @@ def sweep_many(
     threads: int | None = 1,
     **options: Any,
 ) -> Answers:
-    """Sweeps for n pairs of poses and motions in one call.
+    """Run sweeps for n pairs of poses and motions in one call.
 
     motions_a, motions_b: sequences of n Motion, or (n, 10) arrays of displacement, axis, angle and
-    about, or (n, 7) without about, which turn about the origins of the bodies' frames; one Motion
-    stands for n of it. Where all angles are zero it is the translational sweep. The rest as of
-    `discrete_many`.
+    about, or (n, 7) without about, which rotate about the origins of the bodies' frames; a single
+    Motion is used for all n. If all angles are zero, this is the translational sweep. Other
+    arguments as for `discrete_many`.
     """
     return _many(True, a, b, poses_a, poses_b, motions_a, motions_b, OFG, threads, k=k, **options)
 
@@ -192,7 +200,7 @@ def brute_force_many(
     threads: int | None = 1,
     precision: str = "double",
 ) -> Answers:
-    """`brute_force` for n pairs of poses (and motions, for sweeps) in one call."""
+    """Run `brute_force` for n pairs of poses (and motions, for sweeps) in one call."""
     moving = motions_a is not None
     motions_a = Motion() if motions_a is None else motions_a
     return _many(
@@ -212,7 +220,7 @@ def brute_force_many(
 def prepare(
     query: Query, *, algorithm: int = OFG, precision: str = "double", **options: Any
 ) -> _core.Prepared:
-    """A callable that asks `query` in the core and returns (hit, time): what a harness times."""
+    """A callable that answers `query` in the core and returns (hit, time), for timing."""
     checks.query(query)
     single = _is_float(precision)
     poses = np.array([row(query.pose_a), row(query.pose_b)])
@@ -232,10 +240,11 @@ def prepare(
 
 
 def solid(body: Body, precision: str = "double") -> _core.Solid:
-    """The core's form of a body, kept for the last few hundred bodies by content.
+    """The core's representation of a body, cached by content for the last few hundred bodies.
 
-    Raises ValueError for a body whose largest coordinate is out of the core's range (see
-    `discrete`)."""
+    Raises ValueError if the largest coordinate of the body is out of the core's range (see
+    `discrete`).
+    """
     checks.coordinates(body, precision)
     key = body.digest
     if key in _SOLIDS:
@@ -283,7 +292,7 @@ def _ask(
     ]
 
 
-def _many(  # noqa: PLR0913 - what the core takes
+def _many(  # noqa: PLR0913 - the core's arguments
     moving: bool,
     a: Body,
     b: Body,

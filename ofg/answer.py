@@ -1,4 +1,4 @@
-"""What OFG returns: one answer, or one per row of arrays of poses."""
+"""The results of OFG: one answer, or arrays of answers for arrays of poses."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-#: what the hit is, in the order of the core's codes
+#: What was found to collide, in the order of the core's codes.
 FOUND = ("nothing", "start", "end", "edge-face", "face-edge", "edge-edge", "inside", "within")
-#: what is counted: see `Answer.counts`
+#: The operations counted: see `Answer.counts`.
 COUNTS = (
     "spheres",
     "distances",
@@ -23,22 +23,24 @@ COUNTS = (
 
 @dataclass(frozen=True)
 class Answer:
-    """hit: the bodies meet. time: of impact in [0, 1]: 0 or 1 where faces meet at an end of the
-    step; NaN of an overlap query, and where the estimate gives none.
+    """The answer to one query.
+
+    hit: whether the bodies collide. time: time of impact in [0, 1]; 0 or 1 if faces meet at an end
+    of the step; NaN for an overlap query, and if the estimate gives no time.
 
     found: what met. "start" or "end": faces at that pose of the step; an overlap query has only
-    "start". "edge-face": a virtual edge of A and a face of B. With repairs also "face-edge": a
-    virtual edge of B; "edge-edge"; "within": faces at a moment within the step, at which one of the
-    parts ends that the repair "arcs" cuts the step into; "inside": a point of one body lies in the
-    other at the start or the end, and none of the k nearest faces met there (with k >= faces, one
-    body is wholly inside the other). "nothing" without a hit.
-    faces: (face of A, face of B) that met, indices into the faces of `pieces`; -1 where no face
-    did, as with "inside".
-    pieces: (piece of A, piece of B) that were asked; -1 for an undivided mesh.
-    estimate: "velocity", "bisection", "halving" or "none": how the time was found.
+    "start". "edge-face": a virtual edge of A and a face of B. With repairs also "face-edge": a face
+    of A and a virtual edge of B; "edge-edge": two virtual edges; "within": faces at a time within
+    the step, where one of the parts ends into which the repair "arcs" divides the step; "inside": a
+    point of one body lies in the other at the start or the end, and none of the k nearest faces met
+    there (with k >= faces, one body is wholly inside the other). "nothing": no hit.
+    faces: (face of A, face of B) that met, indices into the faces of `pieces`; -1 if no face met,
+    as for "inside".
+    pieces: (piece of A, piece of B) that were tested; -1 for an undivided mesh.
+    estimate: how the time was computed: "velocity", "bisection", "halving" or "none".
     counts: operations by kind: spheres (pairs compared), distances (point to face or piece),
-    face_pairs (settled), edge_faces (virtual edges against faces), edge_pairs, full_tests (of
-    face_pairs: not settled by a cheap rejection), evaluated (distances computed to settle
+    face_pairs (settled), edge_faces (virtual edges against faces), edge_pairs, full_tests (the
+    face_pairs not settled by a cheap rejection), evaluated (distances computed to settle
     `distances`, to faces and to boxes of blocks of faces), steps (parts of the step, halvings).
     """
 
@@ -56,10 +58,11 @@ class Answer:
 
 @dataclass(frozen=True, eq=False)
 class Answers:
-    """The fields of `Answer` as arrays over n queries: hit (n,) bool, time (n,) float64, found (n,)
-    int8 (codes: index into FOUND), faces and pieces (n, 2) int32, counts (n, 8) int64 in the order
-    of COUNTS. answers[i] is one Answer. Many answers are neither true nor false: bool(answers)
-    raises ValueError.
+    """The fields of `Answer` as arrays over n queries.
+
+    hit: (n,) bool. time: (n,) float64. found: (n,) int8, indices into FOUND. faces and pieces: (n,
+    2) int32. counts: (n, 8) int64 in the order of COUNTS. answers[i] is one Answer. The truth value
+    of many answers is ambiguous: bool(answers) raises ValueError.
     """
 
     hit: np.ndarray
@@ -75,8 +78,8 @@ class Answers:
 
     def __bool__(self) -> bool:
         raise ValueError(
-            "Whether many answers are true is ambiguous; use answers.hit.any(), answers.hit.all() "
-            "or len(answers)."
+            "The truth value of many answers is ambiguous; use answers.hit.any(), "
+            "answers.hit.all() or len(answers)."
         )
 
     def __getitem__(self, i: int) -> Answer:
@@ -93,5 +96,5 @@ class Answers:
         )
 
     def count(self, name: str) -> np.ndarray:
-        """(n,) int64 of one kind of operation."""
+        """(n,) int64: counts of one kind of operation."""
         return self.counts[:, COUNTS.index(name)]

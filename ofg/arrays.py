@@ -1,4 +1,4 @@
-"""Poses and motions as rows of arrays: what the core is given."""
+"""Poses and motions as rows of arrays, the form that the core takes."""
 
 from __future__ import annotations
 
@@ -11,10 +11,11 @@ from . import checks
 from .motion import Motion
 from .pose import Pose
 
-#: One for all queries, one for each, or the rows of an array.
+#: One for all queries, one for each query, or the rows of an array.
 Poses = Pose | Sequence[Pose] | np.ndarray
 Motions = Motion | Sequence[Motion] | np.ndarray
-#: Of each kind: columns of the core's rows, those that an array may have, in words.
+#: For each type: the columns of the core's rows, the allowed columns of an array, and a
+#: description.
 _COLUMNS = {
     Pose: (7, (7,), "(n, 7): quaternion (w, x, y, z), position"),
     Motion: (10, (7, 10), "(n, 10): displacement, axis, angle, about; or (n, 7) without about"),
@@ -29,9 +30,10 @@ def row(value: Pose | Motion) -> np.ndarray:
 
 
 def rows_of(values: Poses | Motions, kind: type[Pose] | type[Motion], name: str) -> np.ndarray:
-    """`row` of a Pose or a Motion; (n, 7) or (n, 10) of many, in a sequence or an array.
+    """`row` of a Pose or a Motion; (n, 7) or (n, 10) of a sequence or an array.
 
-    Raises TypeError for what holds something else, ValueError for a shape or a number out of range.
+    Raises TypeError for items of another type, ValueError for a wrong shape or a number out of
+    range.
     """
     if isinstance(values, kind):
         return row(values)
@@ -50,7 +52,7 @@ def rows_of(values: Poses | Motions, kind: type[Pose] | type[Motion], name: str)
 
 
 def broadcast(rows: Sequence[np.ndarray]) -> list[np.ndarray]:
-    """All with as many rows as those that have some, or one. ValueError where these differ."""
+    """Repeat single rows so that all arrays have equally many. ValueError if the counts differ."""
     counts = sorted({len(r) for r in rows if r.ndim == 2})
     if len(counts) > 1:
         raise ValueError(
@@ -64,15 +66,15 @@ def broadcast(rows: Sequence[np.ndarray]) -> list[np.ndarray]:
 def check_float(
     poses_a: np.ndarray, poses_b: np.ndarray, motions_a: np.ndarray, motions_b: np.ndarray
 ) -> None:
-    """ValueError where what the core does in single precision would leave its range.
+    """Raise ValueError if the core would leave the range of single precision.
 
-    Positions far from the world's origin are no matter: only the relative ones enter.
+    Positions far from the world's origin are allowed: only relative positions enter.
     """
     for name, lengths in (
         ("The position of A relative to B", poses_a[:, 4:] - poses_b[:, 4:]),
         ("The displacement of A relative to B", motions_a[:, :3] - motions_b[:, :3]),
-        ("The point that A turns about", motions_a[:, 7:]),
-        ("The point that B turns about", motions_b[:, 7:]),
+        ("The point that A rotates about", motions_a[:, 7:]),
+        ("The point that B rotates about", motions_b[:, 7:]),
     ):
         far = _first(np.abs(lengths) > checks.LONGEST_FLOAT)
         if far is not None:
@@ -91,12 +93,12 @@ def _all_of(values: Any, kind: type[Pose] | type[Motion], name: str) -> list[Pos
         raise TypeError(f"{name} is {checks.shown(values)}; {give}.") from None
     wrong = next((v for v in every if not isinstance(v, kind)), None)
     if any(not isinstance(v, kind) for v in every):
-        raise TypeError(f"{name} holds {checks.shown(wrong)}; {give}.")
+        raise TypeError(f"{name} contains {checks.shown(wrong)}; {give}.")
     return every
 
 
 def _first(bad: np.ndarray) -> int | None:
-    """The first row in which anything is true."""
+    """The first row that contains a true value."""
     found = np.flatnonzero(bad.any(axis=1) if bad.ndim == 2 else bad)
     return int(found[0]) if len(found) else None
 
@@ -105,7 +107,7 @@ def _check_finite(rows: np.ndarray, name: str) -> None:
     i = _first(~np.isfinite(rows))
     if i is not None:
         raise ValueError(
-            f"{name}[{i}] = {rows[i].tolist()} holds a number that is not finite; every number "
+            f"{name}[{i}] = {rows[i].tolist()} contains a number that is not finite; every number "
             "must be finite."
         )
 
@@ -114,7 +116,8 @@ def _check_poses(rows: np.ndarray, name: str) -> None:
     i = _first((rows[:, :4] == 0).all(axis=1))
     if i is not None:
         raise ValueError(
-            f"{name}[{i}] has a zero quaternion, which is no rotation; use (1, 0, 0, 0) for none."
+            f"{name}[{i}] has a zero quaternion, which is not a rotation; use (1, 0, 0, 0) for "
+            "none."
         )
     _check_directions(rows[:, :4], np.full(len(rows), True), f"{name}[{{}}].quaternion")
     _check_lengths(rows[:, 4:], f"{name}[{{}}].position")
@@ -125,7 +128,7 @@ def _check_motions(rows: np.ndarray, name: str) -> None:
     i = _first(~axes.any(axis=1) & turns)
     if i is not None:
         raise ValueError(
-            f"{name}[{i}] has an angle about a zero axis, which is no rotation; give an axis."
+            f"{name}[{i}] has an angle about a zero axis, which is not a rotation; give an axis."
         )
     _check_directions(axes, turns, f"{name}[{{}}].axis")
     _check_lengths(rows[:, :3], f"{name}[{{}}].displacement")

@@ -23,13 +23,14 @@ __all__ = ["Body", "BodyError", "BodyWarning"]
 
 @dataclass(frozen=True, eq=False)
 class Body(Frozen):
-    """Make one with Body.convex, mesh, union, from_trimesh or from_file, not directly.
+    """A rigid body. Create one with Body.convex, mesh, union, from_trimesh or from_file, not
+    directly.
 
-    kind: what the solid is. "convex": the convex hull of `vertices`; "mesh": what the closed
-    surface (vertices, faces) encloses; "union": the union of the convex `pieces`.
-    vertices: (n, 3) float64, in the body's frame (rotations turn about its origin).
-    faces: (m, 3) int32, outward (counter-clockwise from outside). Of a union: those of all its
-    pieces, one after another.
+    kind: the type of solid. "convex": the convex hull of `vertices`; "mesh": the volume enclosed by
+    the closed surface (vertices, faces); "union": the union of the convex `pieces`.
+    vertices: (n, 3) float64, in the body's frame (rotations are about its origin).
+    faces: (m, 3) int32, outward (counter-clockwise from outside). For a union: the faces of all its
+    pieces, one piece after another.
     pieces: the convex bodies of a union; a convex body is its own only piece; a mesh has none (see
     `decompose`).
     """
@@ -42,7 +43,7 @@ class Body(Frozen):
 
     @classmethod
     def convex(cls, vertices: ArrayLike, name: str = "body") -> Body:
-        """The convex hull of (n, 3) points; those inside it are dropped. BodyError if flat."""
+        """The convex hull of (n, 3) points; interior points are dropped. BodyError if flat."""
         v = solid.points(vertices, f"Body '{name}'")
         try:
             hull = ConvexHull(v, qhull_options="QbB Qt Pp")
@@ -59,12 +60,12 @@ class Body(Frozen):
 
     @classmethod
     def mesh(cls, vertices: ArrayLike, faces: ArrayLike, name: str = "body") -> Body:
-        """What a closed triangle mesh encloses: the points with a winding number not 0.
+        """The solid enclosed by a closed triangle mesh: the points with a non-zero winding number.
 
-        vertices: (n, 3) numbers. faces: (m, 3) indices, outward. Vertices at exactly one place are
-        merged and unused ones dropped; faces that cancel in pairs are dropped; faces without area
-        come last. Faces that are all inward are turned, with a BodyWarning. BodyError if open, not
-        finite, flat, or in part inside-out.
+        vertices: (n, 3) numbers. faces: (m, 3) indices, outward. Vertices at exactly the same place
+        are merged and unused vertices dropped; faces that cancel in pairs are dropped; faces
+        without area come last. If all faces are inward, they are reversed, with a BodyWarning.
+        Raises BodyError if the mesh is open, not finite, flat, or partly inside-out.
         """
         who = f"Body '{name}'"
         v = solid.points(vertices, who)
@@ -74,7 +75,9 @@ class Body(Frozen):
 
     @classmethod
     def union(cls, pieces: Iterable[Body], name: str = "body") -> Body:
-        """The union of convex bodies, which may overlap and share a frame. BodyError for others."""
+        """The union of convex bodies, which may overlap and share a frame. BodyError for other
+        bodies.
+        """
         try:
             pieces = tuple(pieces)
         except TypeError as error:
@@ -84,10 +87,10 @@ class Body(Frozen):
             ) from error
         wrong = [p for p in pieces if not isinstance(p, Body) or p.kind != "convex"]
         if not pieces or wrong:
-            what = f"it was given {_what(wrong[0])}" if wrong else "it was given none"
+            what = f"was given {_what(wrong[0])}" if wrong else "was given none"
             raise BodyError(
-                f"Body '{name}': a union needs one convex piece or more, and {what}; make each with"
-                " Body.convex."
+                f"Body '{name}': a union needs one convex piece or more, but {what}; make each "
+                "with Body.convex."
             )
         first = np.cumsum([0] + [len(p.vertices) for p in pieces])
         faces = np.concatenate([p.faces + offset for p, offset in zip(pieces, first)])
@@ -99,12 +102,13 @@ class Body(Frozen):
     def from_trimesh(
         cls, mesh: object, name: str | None = None, *, split: bool = False, weld: float = 0.0
     ) -> Body:
-        """A convex body if that is proved, else a mesh body. mesh: a Trimesh or Scene.
+        """A convex body if convexity is proved, else a mesh body. mesh: a Trimesh or Scene.
 
-        Convex means that every vertex is exactly on or behind the plane of every face; a mesh that
-        is concave by a rounding error is a mesh body (Body.convex makes its hull).
+        Convex means that every vertex lies exactly on or behind the plane of every face; a mesh
+        that is concave only by a rounding error becomes a mesh body (Body.convex makes its hull).
         split: keep objects and shells apart, as the convex pieces of a union; BodyError if one is
-        concave or a cavity. weld: first merge vertices up to this length apart. Else as Body.mesh.
+        concave or a cavity. weld: first merge vertices up to this distance apart. Otherwise as
+        Body.mesh.
         """
         given = (getattr(mesh, "metadata", None) or {}).get("name")
         if name is None:
@@ -124,8 +128,9 @@ class Body(Frozen):
     ) -> Body:
         """The body in a triangle mesh file: OBJ, STL, PLY, OFF, GLB, and others that trimesh reads.
 
-        Kind, split and weld as of from_trimesh. The file may be gzipped, bzipped or in a ZIP. most:
-        bytes that it may hold when unpacked. BodyError names the file, the fault and the remedy.
+        Kind, split and weld as for from_trimesh. The file may be compressed with gzip or bzip2, or
+        be in a ZIP archive. most: maximum size in bytes when unpacked. BodyError names the file,
+        the fault and the remedy.
         """
         path = meshfile.path_of(path)
         return cls._from_parts(
@@ -154,7 +159,7 @@ class Body(Frozen):
 
     @classmethod
     def _proved_convex(cls, v: np.ndarray, f: np.ndarray, name: str, who: str) -> Body | None:
-        """The convex body that a closed outward surface bounds; None if that is not proved."""
+        """The convex body bounded by a closed outward surface; None if convexity is not proved."""
         if not solid.is_convex(v, f):
             return None
         hull = cls.convex(v, name)
@@ -163,8 +168,8 @@ class Body(Frozen):
             return None
         if abs(own - its) > 1e-6 * its + 1e-13 * hull.size**3:
             raise BodyError(
-                f"{who}: the mesh is convex with the volume {own:.9g}, but its hull has {its:.9g}. "
-                "Give Body.convex the points that are meant."
+                f"{who}: the mesh is convex with the volume {own:.9g}, but its hull has "
+                f"{its:.9g}. Give Body.convex the intended points."
             )
         return hull
 
@@ -184,9 +189,9 @@ class Body(Frozen):
             piece = cls._proved_convex(v, f, f"{name}#{i}", of) if sign > 0 else None
             if piece is None:
                 raise BodyError(
-                    f"{of} is {'concave' if sign > 0 else 'inside-out or a cavity'}, and a union is"
-                    " made of convex pieces. Read it without split, as a mesh, and make pieces of"
-                    " that with ofg.decompose."
+                    f"{of} is {'concave' if sign > 0 else 'inside-out or a cavity'}, but a union "
+                    "consists of convex pieces. Read the file without split, as a mesh, and "
+                    "divide that into pieces with ofg.decompose."
                 )
             pieces.append(piece)
         return cls.union(pieces, name)
@@ -200,10 +205,10 @@ class Body(Frozen):
         pieces: tuple[Body, ...],
         name: str,
     ) -> Body:
-        """A body of arrays that were checked before: a copy with other numbers, or read back.
+        """A body of arrays already checked: a copy with other numbers, or one read back.
 
         kind: "convex", "union" or "mesh". vertices: (n, 3); faces: (m, 3), outward; pieces: of a
-        union, convex. Nothing is checked but the name.
+        union, convex. Only the name is checked.
         """
         vertices, faces = (
             np.array(vertices, np.float64, order="C"),
@@ -218,7 +223,7 @@ class Body(Frozen):
 
     @cached_property
     def digest(self) -> str:
-        """Content hash (hex): equal for bodies of equal kind and arrays, whatever their names."""
+        """Content hash (hex): equal for bodies of equal kind and arrays, regardless of name."""
         h = hashlib.sha256(self.kind.encode())
         for part in self.pieces if self.kind == "union" else (self,):
             h.update(np.array([len(part.vertices), len(part.faces)], np.int64).tobytes())
@@ -228,7 +233,7 @@ class Body(Frozen):
 
     @cached_property
     def centre(self) -> np.ndarray:
-        """(3,) mean of the vertices; of a union, the mean of its pieces' centres."""
+        """(3,) mean of the vertices; for a union, the mean of its pieces' centres."""
         points = [p.centre for p in self.pieces] if self.kind == "union" else self.vertices
         mean: np.ndarray = np.mean(points, axis=0)
         return mean
@@ -240,11 +245,11 @@ class Body(Frozen):
 
     @cached_property
     def volume(self) -> float:
-        """Volume of the solid, in cubed units: of the points with a winding number not 0.
+        """Volume of the solid in cubed units: of the points with a non-zero winding number.
 
-        Where shells lie in one another, overlap or cut each other, each point counts once; so do
-        the points of a union's pieces. What is on each side of a face is decided exactly, the sum
-        is in doubles. BodyError if more than some thousand pairs of faces cut each other.
+        Where shells are nested, overlap or intersect, each point counts once; so do the points of a
+        union's pieces. Which side of a face is solid is decided exactly; the sum is in doubles.
+        Raises BodyError if more than a few thousand pairs of faces intersect.
         """
         if self.kind == "convex":
             return winding.signed_volume(self.vertices, self.faces)
@@ -252,14 +257,15 @@ class Body(Frozen):
             return volume.solid_volume(*surface.settled(*surface.merged(self.vertices, self.faces)))
         except volume.TooManyCuts as error:
             raise BodyError(
-                f"Body '{self.name}': its volume is not worked out, because {error}."
+                f"Body '{self.name}': its volume cannot be computed, because {error}."
             ) from error
 
     @cached_property
     def broad_faces(self) -> np.ndarray:
-        """(m, 3) the faces without those at the end that have no area: all that can be touched.
+        """(m, 3) faces with an area: everything that can be touched.
 
-        Faces without area close a mesh where a vertex lies on an edge; they add no point to it.
+        Faces without area, which come last, close a mesh where a vertex lies on an edge; they add
+        no point to it.
         """
         broad = (
             ~exact.flat(self.vertices, self.faces)
@@ -274,7 +280,7 @@ class Body(Frozen):
         return float(np.linalg.norm(np.ptp(self.vertices, axis=0)))
 
     def to_trimesh(self) -> trimesh.Trimesh:
-        """The vertices and faces as they are, in the body's frame."""
+        """The unchanged vertices and faces as a Trimesh, in the body's frame."""
         return trimesh.Trimesh(self.vertices, self.faces, process=False)
 
     def __repr__(self) -> str:
@@ -295,11 +301,11 @@ def _volume(v: np.ndarray, f: np.ndarray) -> float:
 
 
 def _wound_alike(triangles: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
-    """Qhull's triangles, turned so that neighbours run through their common edge in opposite
+    """Qhull's triangles, oriented so that neighbours traverse their common edge in opposite
     directions.
 
-    By neighbourhood and not by normals, and without trimesh, which merges vertices closer than 1e-8
-    whatever the scale: bodies of 1e-6, walls of 1e-9 and triangles without area come out whole.
+    Uses adjacency rather than normals, and avoids trimesh, which merges vertices closer than 1e-8
+    at any scale: bodies of 1e-6, walls of 1e-9 and triangles without area are preserved.
     """
     wound = triangles.tolist()
     seen, front = {0}, [0]

@@ -1,4 +1,4 @@
-"""Is a value what it should be? Each check raises a TypeError or a ValueError of one sentence."""
+"""Argument checks, each of which raises a TypeError or a ValueError of one sentence."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ import numpy as np
 if TYPE_CHECKING:
     from .body import Body
 
-#: Greatest length in poses, motions and bodies: the core multiplies a few of them with one another.
+#: Greatest length in poses, motions and bodies: the core multiplies a few of them together.
 LONGEST = 1e60
-#: Least of the largest coordinate of a body: what is smaller has products that vanish.
+#: Smallest value of the largest coordinate of a body: products of smaller ones underflow.
 SMALLEST = 1e-60
-#: The same two with precision = "float".
+#: The same two limits with precision = "float".
 LONGEST_FLOAT, SMALLEST_FLOAT = 1e10, 1e-10
-#: Range of the largest component of a quaternion or of an axis, which may have any length within.
+#: Range of the largest component of a quaternion or an axis, whose length is otherwise arbitrary.
 LEAST_COMPONENT, MOST_COMPONENT = 1e-300, 1e300
-#: Greatest angle of a turn, in radians: one more turn is still one in double rounding.
+#: Greatest angle of rotation, in radians: adding one more turn is still resolved in doubles.
 LARGEST_ANGLE = 1e9
 
 
 def of_type(value: Any, kind: type, name: str, remedy: str) -> Any:
-    """The value, which is of this type. TypeError if not."""
+    """Return the value if it is of this type. TypeError if not."""
     if isinstance(value, kind):
         return value
     article = "an" if type(value).__name__[:1] in "aeiouAEIOU" else "a"
@@ -34,7 +34,7 @@ def of_type(value: Any, kind: type, name: str, remedy: str) -> Any:
 
 
 def body(value: Any, name: str) -> Any:
-    """The value, which is an ofg.Body. TypeError if not."""
+    """Return the value if it is an ofg.Body. TypeError if not."""
     from .body import Body
 
     remedy = "make one with Body.convex, Body.mesh, Body.union, Body.from_trimesh or Body.from_file"
@@ -42,21 +42,21 @@ def body(value: Any, name: str) -> Any:
 
 
 def pose(value: Any, name: str) -> Any:
-    """The value, which is an ofg.Pose. TypeError if not."""
+    """Return the value if it is an ofg.Pose. TypeError if not."""
     from .pose import Pose
 
     return of_type(value, Pose, name, "give Pose(quaternion, position)")
 
 
 def query(value: Any) -> Any:
-    """The value, which is an ofg.Query. TypeError if not."""
+    """Return the value if it is an ofg.Query. TypeError if not."""
     from .query import Query
 
     return of_type(value, Query, "query", "give Query(question, a, b, ...)")
 
 
 def motion(value: Any, name: str) -> Any:
-    """The value, which is an ofg.Motion. TypeError if not."""
+    """Return the value if it is an ofg.Motion. TypeError if not."""
     from .motion import Motion
 
     remedy = "give Motion(displacement, axis, angle, about), or Motion() for rest"
@@ -64,16 +64,16 @@ def motion(value: Any, name: str) -> Any:
 
 
 def vector(value: Any, size: int, name: str) -> np.ndarray:
-    """(size,) float64, finite, that nobody can write to. TypeError or ValueError if not."""
+    """(size,) float64, finite and read-only. TypeError or ValueError if the value does not fit."""
     try:
         v = reals(value)
     except TypeError:
-        raise TypeError(f"{name} must hold {size} numbers, but is {shown(value)}.") from None
+        raise TypeError(f"{name} must contain {size} numbers, but is {shown(value)}.") from None
     if v.shape != (size,):
         raise ValueError(f"{name} must have shape ({size},), not {v.shape}.")
     if not np.isfinite(v).all():
         raise ValueError(
-            f"{name} = {v.tolist()} holds a number that is not finite; every component must be "
+            f"{name} = {v.tolist()} contains a number that is not finite; every component must be "
             "finite."
         )
     v.setflags(write=False)
@@ -81,8 +81,9 @@ def vector(value: Any, size: int, name: str) -> np.ndarray:
 
 
 def reals(value: Any) -> np.ndarray:
-    """A new array of doubles. TypeError for what holds anything but real numbers: words and truth
-    values would be taken for them. Numbers too large for a double are infinite."""
+    """A new array of doubles. TypeError for anything but real numbers: NumPy would convert strings
+    and booleans. Numbers too large for a double become infinite.
+    """
     try:
         a = np.array(value)
     except ValueError as error:
@@ -92,7 +93,7 @@ def reals(value: Any) -> np.ndarray:
             raise TypeError("not all are numbers")
         return np.array([_double(x) for x in a.flat]).reshape(a.shape)
     if a.dtype.kind not in "fiu" and a.size:
-        raise TypeError(f"{a.dtype} is no type of real numbers")
+        raise TypeError(f"{a.dtype} is not a type of real numbers")
     return a.astype(np.float64)
 
 
@@ -104,7 +105,7 @@ def _double(x: Any) -> float:
 
 
 def shown(value: Any) -> str:
-    """A value in an error message: one line, and not a long one."""
+    """A value as one short line for an error message."""
     text = " ".join(repr(value).split())
     return text if len(text) <= 80 else f"{text[:60]}..., a {type(value).__name__}"
 
@@ -113,7 +114,7 @@ def word(value: Any, name: str) -> str:
     """A str. TypeError for anything else."""
     if isinstance(value, str):
         return value
-    raise TypeError(f"{name} = {shown(value)} must be a word.")
+    raise TypeError(f"{name} = {shown(value)} must be a string.")
 
 
 def points(value: Any, name: str) -> np.ndarray:
@@ -121,7 +122,7 @@ def points(value: Any, name: str) -> np.ndarray:
     try:
         v = reals(value)
     except TypeError:
-        raise TypeError(f"{name} must hold numbers, but is {shown(value)}.") from None
+        raise TypeError(f"{name} must contain numbers, but is {shown(value)}.") from None
     if v.ndim not in (1, 2) or v.shape[-1] != 3:
         raise ValueError(f"{name} must have shape (n, 3), not {v.shape}.")
     return v
@@ -175,8 +176,8 @@ def coordinates(body: Body, precision: str = "double") -> None:
     if not least <= largest <= most:
         raise ValueError(
             f"Body '{body.name}' has {largest:g} as its largest coordinate; precision = "
-            f"'{precision}' takes bodies from {least:g} to {most:g}, so use another unit of length"
-            f"{', or double' if single else ''}."
+            f"'{precision}' supports bodies from {least:g} to {most:g}, so use another unit of "
+            f"length{', or double' if single else ''}."
         )
 
 
@@ -192,14 +193,14 @@ def whole(name: str, value: Any, least: int, most: int = 2**31 - 1) -> int:
 
 
 def truth(name: str, value: Any) -> bool:
-    """A bool. TypeError for anything else: the word "False" would count as true."""
+    """A bool. TypeError for anything else: the string "False" would count as true."""
     if isinstance(value, (bool, np.bool_)):
         return bool(value)
     raise TypeError(f"{name} = {shown(value)} must be True or False.")
 
 
 def one_of(name: str, value: Any, known: Sequence[str]) -> int:
-    """The place of a word among those known. ValueError if it is not there."""
+    """The index of a string among the known ones. ValueError if it is unknown."""
     if not isinstance(value, str) or value not in known:
         raise ValueError(f"{name} = {shown(value)} is unknown; use one of {', '.join(known)}.")
     return list(known).index(value)

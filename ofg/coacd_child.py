@@ -1,9 +1,9 @@
-"""Run CoACD in a process of its own, which can be ended.
+"""Run CoACD in a separate process that can be terminated.
 
 Usage: coacd_child.py SECONDS < IN.npz > OUT.npz
 
-Native code that hangs cannot be interrupted in the process that it runs in. This file is run as a
-script and imports nothing of ofg, so that it starts fast.
+Native code that hangs cannot be interrupted from within its own process. This file is run as a
+script and imports nothing from ofg, so that it starts fast.
 """
 
 import io
@@ -15,7 +15,7 @@ import numpy as np
 
 
 def end_with_parent() -> None:
-    """If the process that asked is killed, so is this one (Linux; elsewhere the alarm ends it)."""
+    """Terminate this process when its parent is killed (Linux; elsewhere the alarm ends it)."""
     if sys.platform == "linux":
         import ctypes
 
@@ -24,10 +24,10 @@ def end_with_parent() -> None:
 
 
 def main(seconds: str) -> None:
-    """Read a mesh from stdin, write its pieces to stdout; end after that many seconds."""
+    """Read a mesh from stdin, write its pieces to stdout; terminate after that many seconds."""
     end_with_parent()
     if hasattr(signal, "alarm"):
-        # its default action ends the process, also in native code
+        # The default action of the alarm ends the process, also in native code.
         signal.alarm(int(float(seconds)) + 5)
     answer = os.dup(1)
     os.dup2(2, 1)  # what CoACD prints must not get into the archive

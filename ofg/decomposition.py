@@ -1,4 +1,4 @@
-"""A concave mesh as a union of convex pieces, by CoACD, kept on disk by content."""
+"""Convex decomposition of a concave mesh by CoACD, cached on disk by content."""
 
 from __future__ import annotations
 
@@ -18,10 +18,14 @@ import platformdirs
 from . import checks, exact, piecefile, surface, winding
 from .body import Body, BodyError
 
-SECONDS = 300.0  #: that CoACD may take; most bodies need less than ten
-SAMPLES = 400  #: points of the body at which the pieces are compared with it
-COVERED = 0.9  #: share of these that must be in a piece, of each shell half
-FULL = (0.85, 3.0)  #: the pieces' volumes in sum, as a share of the body's
+SECONDS = 300.0  #: time limit of CoACD; most bodies need less than ten
+SAMPLES = 400  #: points of the body at which it is compared with the pieces
+COVERED = 0.9  #: share of these points that must lie in a piece; half of it for each shell
+#: allowed range of the summed volume of the pieces, as a share of the body's volume
+FULL = (
+    0.85,
+    3.0,
+)
 
 
 def decompose(
@@ -33,17 +37,18 @@ def decompose(
     thin: int = 0,
     seconds: float = SECONDS,
 ) -> Body:
-    """A union of convex pieces that approximates a mesh body; other bodies come back as they are.
+    """A union of convex pieces that approximates a mesh body; other bodies are returned unchanged.
 
     threshold: CoACD's concavity, 0.01 (many pieces) to 1. max_pieces: -1 for no limit. seed: the
-    same seed gives the same pieces. thin: if positive, each piece is reduced to the vertices that
-    support it in that many directions (the thinned piece lies inside it). seconds: CoACD runs in a
-    process of its own, which is ended after that time.
-    The result is kept in the user's cache folder, or in $OFG_CACHE, by the content of the mesh and
-    all parameters but the time. An altered file there is made anew; where nothing can be written
-    there is one RuntimeWarning, and the result is kept for this process alone.
-    Raises BodyError where CoACD takes longer, finds no pieces with a volume, or leaves out a part
-    of the body (pieces are compared with it by volume, and at points in each shell).
+    same seed gives the same pieces. thin: if positive, each piece is reduced to its support points
+    in that many directions (the thinned piece lies inside it). seconds: time limit; CoACD runs in a
+    separate process, which is then terminated.
+    The result is cached in the user's cache folder, or in $OFG_CACHE, keyed by the content of the
+    mesh and all parameters except the time limit. An altered cache file is computed again. If the
+    folder is not writable, one RuntimeWarning is issued and the result is kept for this process
+    only.
+    Raises BodyError if CoACD exceeds the time limit, finds no pieces with a volume, or omits a part
+    of the body (the pieces are compared with it by volume, and at points in each shell).
     Source: Wei et al., "Approximate convex decomposition for 3D meshes with collision-aware
     concavity and tree search", SIGGRAPH 2022.
     """
@@ -56,11 +61,11 @@ def decompose(
         return body
     if not 0.01 <= threshold <= 1:
         raise ValueError(
-            f"threshold = {threshold} must lie in [0.01, 1]: CoACD's concavity, small for many"
-            " pieces."
+            f"threshold = {threshold} must lie in [0.01, 1]: CoACD's concavity, where small "
+            "values give many pieces."
         )
     if not seconds > 0:
-        raise ValueError(f"seconds = {seconds} must be more than 0: the time that CoACD may take.")
+        raise ValueError(f"seconds = {seconds} must be more than 0: the time limit of CoACD.")
     path = kept_at(body, threshold=threshold, max_pieces=max_pieces, seed=seed, thin=thin)
     hulls = piecefile.load(path)
     if hulls is None:
@@ -76,7 +81,7 @@ def decompose(
 def kept_at(
     body: Body, *, threshold: float = 0.05, max_pieces: int = -1, seed: int = 0, thin: int = 0
 ) -> Path:
-    """Where `decompose` with the same arguments keeps its result, once it was asked for."""
+    """Path at which `decompose` with the same arguments caches its result."""
     parameters = {
         "threshold": threshold,
         "max_pieces": max_pieces,
@@ -97,9 +102,10 @@ def cache_folder() -> Path:
 
 
 def supports(vertices: np.ndarray, directions: int) -> np.ndarray:
-    """(m, 3): those of (n, 3) points that are farthest in one of about `directions` directions.
+    """(m, 3): the support points of (n, 3) points in about `directions` directions.
 
-    The directions are spread on a Fibonacci sphere."""
+    The directions are spread over a Fibonacci sphere.
+    """
     i = np.arange(directions) + 0.5
     z, turn = 1 - 2 * i / directions, np.pi * (1 + 5**0.5) * i
     r = np.sqrt(1 - z * z)
@@ -127,7 +133,7 @@ def _coacd(
         try:
             hulls.append(Body.convex(part).vertices)
         except BodyError:
-            continue  # a piece as flat as a sheet has no interior to collide with
+            continue  # a flat piece has no interior to collide with
     if not hulls:
         raise BodyError(
             f"Body '{body.name}': CoACD found no piece with a volume. Repair the mesh"
@@ -137,8 +143,9 @@ def _coacd(
 
 
 def _outside(body: Body) -> tuple[np.ndarray, np.ndarray]:
-    """The surface without what has the solid on both sides, such as a shell in another: CoACD goes
-    on for minutes about it. As it is where nothing of the kind is found."""
+    """The surface without faces that have the solid on both sides, such as a shell inside another:
+    CoACD spends minutes on those. Unchanged if there are none.
+    """
     if surface.patches(body.faces).max() == 0:
         return body.vertices, body.faces
     try:
@@ -152,8 +159,10 @@ def _outside(body: Body) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _run_apart(name: str, seconds: float, **given: Any) -> list[np.ndarray]:
-    """CoACD's pieces as arrays of points, from a process of its own. It is spoken to through pipes,
-    so that a full folder of temporary files is no fault of the body, and a kill leaves none."""
+    """CoACD's pieces as arrays of points, computed in a separate process. It communicates through
+    pipes, so a full temporary folder does not look like a fault of the body, and killing it leaves
+    no files.
+    """
     stream = io.BytesIO()
     np.savez(stream, **given)
     script = Path(__file__).with_name("coacd_child.py")
@@ -162,24 +171,24 @@ def _run_apart(name: str, seconds: float, **given: Any) -> list[np.ndarray]:
         done = subprocess.run(
             command, input=stream.getvalue(), capture_output=True, timeout=seconds
         )
-    except subprocess.TimeoutExpired as error:  # the process is killed by then
+    except subprocess.TimeoutExpired as error:  # the process has been killed
         raise BodyError(
-            f"Body '{name}': CoACD took more than {seconds:g} s and was ended. Simplify the"
-            " mesh, give a larger threshold or more seconds, or ask the mesh undivided."
+            f"Body '{name}': CoACD took more than {seconds:g} s and was terminated. Simplify the "
+            "mesh, give a larger threshold or more seconds, or use the mesh undivided."
         ) from error
     hulls = _made(done.stdout)
     if hulls is None:
         said = done.stderr.decode(errors="replace").strip().splitlines()
         last = (said or [f"exit code {done.returncode}"])[-1][:150]
         raise BodyError(
-            f"Body '{name}': CoACD failed ({last}). Repair the mesh (trimesh.repair), or ask it"
-            " undivided."
+            f"Body '{name}': CoACD failed ({last}). Repair the mesh (trimesh.repair), or use it "
+            "undivided."
         )
     return hulls
 
 
 def _made(archive: bytes) -> list[np.ndarray] | None:
-    """What coacd_child.py wrote; None where it ended before it was done."""
+    """The pieces written by coacd_child.py; None if it ended before it was done."""
     try:
         with np.load(io.BytesIO(archive), allow_pickle=False) as made:
             return np.split(made["vertices"], made["splits"])
@@ -188,16 +197,16 @@ def _made(archive: bytes) -> list[np.ndarray] | None:
 
 
 def _require_alike(body: Body, pieces: list[Body]) -> None:
-    """BodyError where the pieces are not nearly the body: another volume, or points left out."""
+    """Raise BodyError if the pieces differ from the body in volume, or omit points of it."""
     remedy = (
-        "Give a smaller threshold or another seed, keep shells that cut each other apart"
-        " (split=True of Body.from_file), or ask the mesh undivided."
+        "Give a smaller threshold or another seed, keep intersecting shells apart (split=True of "
+        "Body.from_file), or use the mesh undivided."
     )
     share = sum(p.volume for p in pieces) / body.volume
     if not FULL[0] <= share <= FULL[1]:
         raise BodyError(
-            f"Body '{body.name}': the volume of CoACD's pieces is {share:.2f} of the body's, which"
-            f" is another body. {remedy}"
+            f"Body '{body.name}': the volume of CoACD's pieces is {share:.2f} of the body's "
+            f"volume, so they are another body. {remedy}"
         )
     points, shell = _inner_points(body)
     held = np.zeros(len(points), bool)
@@ -208,11 +217,11 @@ def _require_alike(body: Body, pieces: list[Body]) -> None:
     lost = np.flatnonzero((of_shell < COVERED / 2) & (np.bincount(shell) > 0))
     if len(lost) or held.mean() < COVERED:
         what = f"shell {lost[0] + 1}" if len(lost) else f"{1 - held.mean():.0%} of the body"
-        raise BodyError(f"Body '{body.name}': CoACD's pieces leave out {what}. {remedy}")
+        raise BodyError(f"Body '{body.name}': CoACD's pieces omit {what}. {remedy}")
 
 
 def _inner_points(body: Body) -> tuple[np.ndarray, np.ndarray]:
-    """((n, 3) points in the body, (n,) the shell each is near): below faces spread over it."""
+    """((n, 3) points in the body, (n,) the shell near each): below faces spread over it."""
     v, f = body.vertices, body.broad_faces
     shell = surface.shells(body.faces)[: len(f)]
     size = np.array(

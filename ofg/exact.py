@@ -1,4 +1,4 @@
-"""Signs that are right: doubles with a bound on their error, else whole numbers."""
+"""Exact signs of geometric predicates: doubles with an error bound, and integers where it fails."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from fractions import Fraction
 import numpy as np
 
 UNIT = 2.0**-53
-SURE = 1e-280  #: terms smaller than this may have lost digits below the smallest double
+SURE = 1e-280  #: smaller terms may have lost digits to underflow
 
 
 def whole(points: np.ndarray) -> np.ndarray:
-    """(..., 3) doubles as Python integers (dtype object), all times the same power of two."""
+    """(..., 3) doubles as Python integers (dtype object), all scaled by the same power of two."""
     mantissa, exponent = np.frexp(points)
     mantissa = (mantissa * 2.0**53).astype(np.int64)
     used = mantissa != 0
@@ -22,17 +22,17 @@ def whole(points: np.ndarray) -> np.ndarray:
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Row by row, of doubles or of Python integers."""
+    """Cross product row by row, of doubles or of Python integers."""
     i, j = [1, 2, 0], [2, 0, 1]
     product: np.ndarray = a[..., i] * b[..., j] - a[..., j] * b[..., i]
     return product
 
 
 def sides(a: np.ndarray, b: np.ndarray, c: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """(n,) of -1, 0, 1: is point p behind, in or in front of the plane of a, b, c? All (n, 3).
+    """(n,) of -1, 0, 1: whether p lies behind, in or in front of the plane of a, b, c. All (n, 3).
 
-    In front is where a, b, c run counter-clockwise. Bound: Shewchuk 1997, "Adaptive precision
-    floating-point arithmetic and fast robust geometric predicates", o3derrboundA.
+    The front is the side from which a, b, c run counter-clockwise. Bound: Shewchuk 1997, "Adaptive
+    precision floating-point arithmetic and fast robust geometric predicates", o3derrboundA.
     """
     a, b, c, p = np.broadcast_arrays(a, b, c, p)
     with np.errstate(all="ignore"):
@@ -63,7 +63,7 @@ def _by_integers(
 def _by_words(
     a: np.ndarray, b: np.ndarray, c: np.ndarray, p: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Where the differences to p are exact and of no more than 26 bits, as on a grid."""
+    """Signs where the differences to p are exact and of at most 26 bits, as on a grid."""
     x = np.stack([a, b, c]) - p
     exact = (x + p == [a, b, c]) & (np.stack([a, b, c]) - x == p)
     mantissa, exponent = np.frexp(x)
@@ -86,7 +86,7 @@ def _by_words(
 
 
 def flat(v: np.ndarray, f: np.ndarray) -> np.ndarray:
-    """(m,) bool: faces whose three corners are on one line exactly, so that they have no area."""
+    """(m,) bool: faces whose three corners are exactly collinear, so that they have no area."""
     with np.errstate(all="ignore"):
         b, c = v[f[:, 1]] - v[f[:, 0]], v[f[:, 2]] - v[f[:, 0]]
         i, j = [1, 2, 0], [2, 0, 1]
@@ -104,11 +104,11 @@ def flat(v: np.ndarray, f: np.ndarray) -> np.ndarray:
 
 
 def volume_sign(v: np.ndarray, f: np.ndarray) -> int:
-    """The sign of the signed volume of a closed surface: 1 where its faces are outward in sum."""
+    """The sign of the signed volume of a closed surface: 1 if its faces are mostly outward."""
     with np.errstate(all="ignore"):
         a, b, c = (v[f[:, i]] - v[f[0, 0]] for i in range(3))
         terms = (a * cross(b, c)).sum(1)
-        # A difference is off by UNIT of itself only, so a product of three by a few units.
+        # A difference has a relative error of UNIT, so a product of three has a few units.
         reach = np.abs(a).sum(1) * np.abs(b).sum(1) * np.abs(c).sum(1)
         total, bound = terms.sum(), (32 + len(f)) * UNIT * reach.sum()
     if SURE < bound < abs(total):
@@ -120,5 +120,5 @@ def volume_sign(v: np.ndarray, f: np.ndarray) -> int:
 
 
 def rational(point: np.ndarray) -> list[Fraction]:
-    """The (3,) doubles as they are."""
+    """The (3,) doubles as exact rationals."""
     return [Fraction(float(c)) for c in point]

@@ -1,4 +1,4 @@
-"""Objects whose arrays cannot be written, also in the copies that pickle and deepcopy make."""
+"""Objects whose arrays stay read-only, also in copies made by pickle and deepcopy."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import numpy as np
 
 
 class Frozen:
-    """Base of a frozen dataclass of arrays. Numpy forgets on the way through pickle that an array
-    is read-only: what one method writes into a body, every later method would be asked about.
+    """Base of a frozen dataclass of arrays. Pickling a NumPy array drops its read-only flag; a
+    method that wrote into a body would then change the queries of every later method.
     """
 
     def __setstate__(self, state: dict[str, Any]) -> None:

@@ -1,4 +1,4 @@
-"""Mesh files as arrays: what they hold, read within a limit, or said in words why not."""
+"""Read mesh files as arrays, within a size limit, or report why a file cannot be read."""
 
 from __future__ import annotations
 
@@ -18,24 +18,24 @@ from . import checks, plainfile
 from .plainfile import Part
 from .solid import BodyError
 
-MOST_BYTES = 512 * 2**20  #: of a file when unpacked: some ten million triangles in a binary STL
-READ = ("obj", "stl", "ply", "off", "glb")  #: the formats that remedies name
+MOST_BYTES = 512 * 2**20  #: maximum size when unpacked: some ten million triangles in a binary STL
+READ = ("obj", "stl", "ply", "off", "glb")  #: the formats named in error messages
 REMEDY = "Give a triangle mesh as OBJ, STL, PLY, OFF or GLB."
 
-# Formats that hold no triangles, or that nothing here reads, by what a user knows them as.
+# Unsupported formats, and formats without triangles, by a name that users know.
 FOREIGN = {
-    "a CAD file of exact surfaces, which holds no triangles": (
+    "a CAD file of exact surfaces, which contains no triangles": (
         "step stp iges igs brep brp sat sab x_t x_b jt sldprt "
         "sldasm ipt iam catpart catproduct prt 3dm f3d fcstd ifc dwg scad"
     ),
-    "a drawing of curves, which holds no triangles": "dxf svg",
+    "a drawing of curves, which contains no triangles": "dxf svg",
     "a point cloud, which has no faces": "xyz pcd las laz e57 pts ptx",
-    "a packed file that is not unpacked here": "tar tgz 7z rar xz zst",
-    "a scene or mesh format that is not read here": (
+    "a packed file of an unsupported format": "tar tgz 7z rar xz zst",
+    "a scene or mesh file of an unsupported format": (
         "fbx blend max usd usda usdc usdz wrl x3d vtk vtp vtu msh 3ds lwo ma mb amf"
     ),
 }
-# What trimesh needs for formats beyond those that it reads by itself.
+# Packages that trimesh needs for formats that it does not read by itself.
 NEEDS = {
     "3mf": "networkx lxml",
     "3dxml": "networkx lxml pillow",
@@ -45,9 +45,9 @@ NEEDS = {
 
 
 def read(path: Path, most: int = MOST_BYTES) -> list[Part]:
-    """(vertices (n, 3), faces (m, 3)) of each object in a mesh file, in its scene's frame.
+    """(vertices (n, 3), faces (m, 3)) of each object in a mesh file, in the frame of its scene.
 
-    most: bytes the file may have when unpacked. BodyError for what cannot be read.
+    most: maximum size in bytes when unpacked. Raises BodyError for a file that cannot be read.
     """
     who = f"Mesh file {path}"
     most = checks.whole("most", most, 1, 2**63 - 1)
@@ -84,27 +84,27 @@ def read(path: Path, most: int = MOST_BYTES) -> list[Part]:
 
 
 def path_of(path: str | os.PathLike[str]) -> Path:
-    """TypeError for what is no path."""
+    """Convert to a Path. TypeError for anything that is not a path."""
     if isinstance(path, (str, os.PathLike)):
         return Path(path)
     raise TypeError(f"path = {path!r} must be the path of a mesh file: a string or a Path.")
 
 
 def name_of(path: Path) -> str:
-    """The file's name without what says its format."""
+    """The file's name without its suffixes."""
     return Path(path.stem).stem if path.suffix.lower() in (".gz", ".bz2") else path.stem
 
 
 def parts_of(mesh: object, who: str) -> list[Part]:
-    """(vertices, faces) of a Trimesh, or of each in a Scene where it is placed, or BodyError."""
+    """(vertices, faces) of a Trimesh, or of each object in a Scene as placed, or BodyError."""
     if isinstance(mesh, trimesh.Trimesh):
         return [(np.array(mesh.vertices), np.array(mesh.faces))]
     if isinstance(mesh, trimesh.PointCloud):
         raise _cloud(len(mesh.vertices), who)
     if not isinstance(mesh, trimesh.Scene):
         raise BodyError(
-            f"{who}: it was given a {type(mesh).__name__}; give a trimesh.Trimesh, or arrays to"
-            " Body.mesh."
+            f"{who}: {type(mesh).__name__} is not supported; give a trimesh.Trimesh, or arrays to "
+            "Body.mesh."
         )
     out, clouds = [], 0
     for node in sorted(mesh.graph.nodes_geometry, key=_natural):
@@ -128,7 +128,7 @@ def _with_faces(parts: list[Part], who: str) -> list[Part]:
 
 
 def _no_faces(points: int, who: str) -> BodyError:
-    return _cloud(points, who) if points else BodyError(f"{who}: it holds no faces. {REMEDY}")
+    return _cloud(points, who) if points else BodyError(f"{who} contains no faces. {REMEDY}")
 
 
 def _placed(v: np.ndarray, f: np.ndarray, matrix: np.ndarray) -> Part:
@@ -139,14 +139,14 @@ def _placed(v: np.ndarray, f: np.ndarray, matrix: np.ndarray) -> Part:
 
 
 def _natural(name: object) -> list[tuple[int, str]]:
-    """part10 after part9."""
+    """A sort key that puts part10 after part9."""
     return [(int(x), "") if x.isdigit() else (0, x) for x in re.split(r"(\d+)", str(name))]
 
 
 def _loaded(
     data: bytes | None, kind: str, who: str, path: Path | None = None, most: int = 0
 ) -> list[Part]:
-    """As the file has it: nothing merged, dropped or repaired."""
+    """The mesh as in the file: nothing merged, dropped or repaired."""
     if data is not None and data.lstrip()[:12] == b"ISO-10303-21":
         _require_known("step", who)
     try:
@@ -179,7 +179,7 @@ def _unzipped(data: bytes, who: str) -> list[Part]:
             if kind in READ and not Path(name).name.startswith("."):
                 out += _loaded(archive.read(name), kind, f"{who}, {name}")
     if not out:
-        raise BodyError(f"{who}: the archive holds no mesh file. {REMEDY}")
+        raise BodyError(f"{who}: the archive contains no mesh file. {REMEDY}")
     return out
 
 
@@ -201,19 +201,19 @@ def _require_known(kind: str, who: str) -> None:
 def _require_size(size: int, most: int, who: str) -> None:
     if size > most:
         raise BodyError(
-            f"{who} holds more than {most / 2**20:.0f} MiB when unpacked, which is the limit."
-            " Simplify the mesh, or give from_file a larger limit: most=BYTES."
+            f"{who} contains more than {most / 2**20:.0f} MiB when unpacked, which is the limit. "
+            "Simplify the mesh, or give from_file a larger limit: most=BYTES."
         )
 
 
 def _require_zip_size(data: bytes, most: int, who: str) -> None:
-    """By the archive's directory, before anything is unpacked."""
+    """Check the size in the archive's directory before anything is unpacked."""
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         _require_size(sum(entry.file_size for entry in archive.infolist()), most, who)
 
 
 def _require_buffers(path: Path, most: int, who: str) -> None:
-    """The files that a GLTF file names count as its own."""
+    """Check the size of a GLTF file together with the files that it names."""
     named = [
         b.get("uri", "") for b in json.loads(path.read_text(errors="replace")).get("buffers", ())
     ]
@@ -225,8 +225,8 @@ def _require_buffers(path: Path, most: int, who: str) -> None:
 
 def _cloud(n: int, who: str) -> BodyError:
     return BodyError(
-        f"{who}: it holds {n} points and no faces: a point cloud, which encloses nothing. Take the"
-        " hull of the points with Body.convex, or reconstruct a surface first."
+        f"{who} contains {n} points and no faces: a point cloud, which encloses nothing. Take the "
+        "hull of the points with Body.convex, or reconstruct a surface first."
     )
 
 

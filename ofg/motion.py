@@ -1,5 +1,5 @@
-"""How a body moves over one step: it turns about one of its points and translates, both at constant
-speed.
+"""The motion of a body over one step: rotation about one of its points and translation, both at
+constant velocity.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ class Motion(Frozen):
 
     displacement: d, (3,) float64, length: of the point c over the step. axis: (3,) float64, any
     non-zero length, fixed in the world. angle: radians over the step, any size (2 pi n is n full
-    turns). about: c, (3,) float64, the point of the body, in the body's frame, about which it
-    turns; the origin of that frame by default. A Motion() is rest. Range: displacement and about up
-    to 1e60, angles up to 1e9, the largest component of the axis of a turn between 1e-300 and 1e300
-    in size. Raises TypeError for what is no numbers; ValueError for numbers that are not finite or
-    out of range, or a zero axis with a non-zero angle.
+    turns). about: c, (3,) float64, the point of the body about which it rotates, in the body's
+    frame; by default the origin of that frame. Motion() is rest. Range: displacement and about up
+    to 1e60, angles up to 1e9, the largest component of the axis of a rotation between 1e-300 and
+    1e300 in size. Raises TypeError for values that are not numbers; ValueError for numbers that are
+    not finite or out of range, or a zero axis with a non-zero angle.
     """
 
     displacement: np.ndarray = field(default_factory=lambda: np.zeros(3))
@@ -44,7 +44,7 @@ class Motion(Frozen):
         checks.angle(self.angle, "Motion.angle")
         if self.angle and not self.axis.any():
             raise ValueError(
-                "Motion.axis is zero while Motion.angle is not; give the axis of the turn."
+                "Motion.axis is zero but Motion.angle is not; give the axis of rotation."
             )
         if self.angle:
             checks.direction(self.axis, "Motion.axis")
@@ -57,7 +57,7 @@ class Motion(Frozen):
         angle: float = 0.0,
         about: ArrayLike = (0, 0, 0),
     ) -> Motion:
-        """A motion whose angle is given in degrees, rounded to double radians."""
+        """A motion with its angle in degrees, rounded to double radians."""
         vectors = {"displacement": displacement, "axis": axis, "about": about}
         radians = math.radians(checks.number(angle, "angle"))
         return cls(
@@ -66,11 +66,11 @@ class Motion(Frozen):
 
     @classmethod
     def between(cls, pose0: Pose, pose1: Pose, about: ArrayLike = (0, 0, 0)) -> Motion:
-        """The motion at constant velocity from one pose to another, as FCL, Bullet and Box2D state
+        """The motion at constant velocity from one pose to another, as FCL, Bullet and Box2D define
         it; in double rounding.
 
-        The body turns by the shorter way, at most half a turn, about its point `about`, which moves
-        on a straight line.
+        The body rotates the shorter way, by at most half a turn, about its point `about`, which
+        moves on a straight line.
         """
         checks.pose(pose0, "pose0")
         checks.pose(pose1, "pose1")
@@ -86,7 +86,7 @@ class Motion(Frozen):
 
     @property
     def rests(self) -> bool:
-        """Neither translates nor turns."""
+        """Whether the body neither translates nor rotates."""
         return not (self.displacement.any() or self.angle)
 
     def pose_at(self, start: Pose, t: float) -> Pose:

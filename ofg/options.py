@@ -1,6 +1,4 @@
-"""What may be chosen in a query: the article by default, and every repair as a switch of its
-own.
-"""
+"""The options of a query: the article by default, and every repair as a separate switch."""
 
 from __future__ import annotations
 
@@ -24,10 +22,10 @@ SWITCHES = (
     "earliest",
     "screen",
 )
-#: options that had another name once
+#: former names of options
 RENAMED = {"selection": "nearest", "selections": "selection_times"}
 
-#: name of a repair -> the options that it sets, and what they are without it.
+#: Name of a repair -> the options that it sets, and their values without it.
 REPAIRS: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {
     "point-triangle": ({"nearest": "point-triangle"}, {"nearest": "centroid"}),
     "adaptive-k": ({"adaptive_k": True}, {"adaptive_k": False}),
@@ -45,15 +43,16 @@ REPAIRS: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {
 
 
 def repair_options(repairs: str) -> dict[str, Any]:
-    """Options for a word: "none", "all", "all-but-X", "X" or "X+Y" with X, Y names of REPAIRS.
+    """Options for a string: "none", "all", "all-but-X", "X" or "X+Y" with X, Y names of REPAIRS.
 
-    "all-but-X" sets X's options to what they are without it ("all-but-swept-spheres" tests step 1
-    at the start pose). Raises TypeError for what is no word, ValueError for a name that is not one.
+    "all-but-X" sets X's options to their values without it ("all-but-swept-spheres" tests step 1 at
+    the start pose). Raises TypeError for a value that is not a string, ValueError for an unknown
+    name.
     """
     if not isinstance(repairs, str):
         raise TypeError(
-            f"repairs = {checks.shown(repairs)} must be a word; join several repairs with +, as in "
-            "'arcs+containment'."
+            f"repairs = {checks.shown(repairs)} must be a string; join several repairs with +, as "
+            "in 'arcs+containment'."
         )
     if repairs == "none":
         return {}
@@ -62,8 +61,8 @@ def repair_options(repairs: str) -> dict[str, Any]:
     unknown = [name for name in [*on, *off] if name not in REPAIRS]
     if unknown:
         raise ValueError(
-            f"repairs = '{repairs}' names no repair '{unknown[0]}'; there are none, all, all-but-X,"
-            f" X and X+Y with X and Y of: {', '.join(REPAIRS)}."
+            f"repairs = '{repairs}' contains an unknown repair '{unknown[0]}'; use none, all, "
+            f"all-but-X, X or X+Y with X and Y of: {', '.join(REPAIRS)}."
         )
     options: dict[str, Any] = {}
     for name in on:
@@ -74,8 +73,9 @@ def repair_options(repairs: str) -> dict[str, Any]:
 def core_options(
     *, k: int = 8, toi: str = "velocity", repairs: str = "none", **own: Any
 ) -> _core.Options:
-    """The core's options. `repairs` is applied first; what is given by its own name overrules it.
-    See `discrete` for each, and for what is raised."""
+    """The core's options. `repairs` is applied first; an option given by its own name overrides it.
+    See `discrete` for the options and errors.
+    """
     chosen = {**repair_options(repairs), **own}
     o = _core.Options()
     o.k = checks.whole("k", k, 1)
@@ -96,13 +96,13 @@ def core_options(
 
 
 def check_options(*, precision: str = "double", **options: Any) -> None:
-    """TypeError or ValueError for what `discrete` would refuse of its options."""
+    """Raise TypeError or ValueError for options that `discrete` would reject."""
     checks.one_of("precision", precision, PRECISION)
     core_options(**options)
 
 
 def check_article(options: Mapping[str, Any]) -> None:
-    """TypeError for an option that the article's steps do not have."""
+    """Raise TypeError for an option that the article's steps do not have."""
     known = ("k", "toi", "order", "iterations", "broad", "precision")
     for name in options:
         if name not in known:
@@ -113,15 +113,15 @@ def _tolerance(value: Any) -> float:
     tolerance = checks.number(value, "arc_tolerance")
     if not 0 <= tolerance < 1:
         raise ValueError(
-            f"arc_tolerance = {tolerance} must lie in [0, 1): the share of A's radius that a chord "
-            "may stray by; 0 cuts no arcs."
+            f"arc_tolerance = {tolerance} must lie in [0, 1): the largest deviation of a chord as "
+            "a share of A's radius; 0 divides no arcs."
         )
     return tolerance
 
 
 def _refuse(name: str) -> None:
     if name in RENAMED:
-        raise TypeError(f"OFG has no option '{name}' any more; it is called '{RENAMED[name]}'.")
+        raise TypeError(f"OFG no longer has an option '{name}'; it is called '{RENAMED[name]}'.")
     raise TypeError(
         f"OFG has no option '{name}'; it has k, toi, broad, concave, order, iterations, repairs,"
         " nearest, adaptive_k, both_vertices, edge_edge, selection_times, arc_tolerance,"

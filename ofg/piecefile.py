@@ -1,4 +1,4 @@
-"""Convex pieces kept on disk: checked by a digest when read, shared by all who may read them."""
+"""Convex pieces cached on disk: verified by a digest when read, readable by all permitted users."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ import numpy as np
 
 from . import wholefile
 
-DAY = 86400.0  #: seconds after which the temporary file of another writer is nobody's
+DAY = 86400.0  #: seconds after which another writer's temporary file is considered abandoned
 NOT_KEPT = (
-    "Convex pieces cannot be kept in {folder} ({reason}); they are made anew in each process, which"
-    " takes longer and changes no answer. Set OFG_CACHE to a folder that can be written."
+    "Convex pieces cannot be cached in {folder} ({reason}); they are computed again in each "
+    "process, which takes longer and changes no answer. Set OFG_CACHE to a writable folder."
 )
-#: what numpy and zipfile raise for an archive that is none
+#: The exceptions that numpy and zipfile raise for a file that is not an archive.
 _BROKEN = (
     OSError,
     ValueError,
@@ -28,7 +28,9 @@ _BROKEN = (
     NotImplementedError,
     zipfile.BadZipFile,
 )
-_kept_here: dict[Path, bytes] = {}  # what the disk did not take, for the rest of this process
+_kept_here: dict[
+    Path, bytes
+] = {}  # pieces that could not be written, kept for the rest of this process
 
 
 def packed(hulls: list[np.ndarray]) -> bytes:
@@ -41,7 +43,9 @@ def packed(hulls: list[np.ndarray]) -> bytes:
 
 
 def unpacked(archive: bytes) -> list[np.ndarray] | None:
-    """What `packed` was given; None where the archive is cut short, altered, or of another kind."""
+    """The arrays given to `packed`; None if the archive is truncated, altered or of another
+    kind.
+    """
     try:
         with np.load(io.BytesIO(archive), allow_pickle=False) as stored:
             vertices, splits, digest = stored["vertices"], stored["splits"], stored["digest"]
@@ -55,7 +59,7 @@ def unpacked(archive: bytes) -> list[np.ndarray] | None:
 
 
 def load(path: Path) -> list[np.ndarray] | None:
-    """The pieces kept at `path`; None where none are, or they cannot be read or are altered."""
+    """The pieces cached at `path`; None if there are none, or they are unreadable or altered."""
     try:
         return unpacked(_kept_here[path] if path in _kept_here else path.read_bytes())
     except OSError:
@@ -63,7 +67,7 @@ def load(path: Path) -> list[np.ndarray] | None:
 
 
 def store(path: Path, hulls: list[np.ndarray]) -> None:
-    """Keep the pieces at `path`. Where that fails, for this process alone, with one warning."""
+    """Cache the pieces at `path`. If that fails, keep them for this process only, and warn once."""
     archive = packed(hulls)
     try:
         _write(path, archive)
@@ -74,7 +78,7 @@ def store(path: Path, hulls: list[np.ndarray]) -> None:
 
 
 def fault(folder: Path) -> str | None:
-    """Why nothing can be kept in `folder`, in a sentence with the remedy; None where it can."""
+    """Why `folder` cannot hold a cache, in a sentence with the remedy; None if it can."""
     try:
         probe = folder / "probe"
         _write(probe, b"")

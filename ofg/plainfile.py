@@ -1,4 +1,6 @@
-"""OBJ, OFF, PLY and STL as arrays: polygons of any number of corners, and nothing lost unsaid."""
+"""Read OBJ, OFF, PLY and STL files as arrays: polygons with any number of corners, without
+silent loss.
+"""
 
 from __future__ import annotations
 
@@ -23,18 +25,20 @@ PLY_TYPES = {
 
 
 class Damaged(ValueError):
-    """What is wrong with a file, as the end of a sentence."""
+    """A fault of a file, worded as the end of a sentence."""
 
 
 def parts(data: bytes, kind: str) -> list[Part]:
-    """The objects in a file of this kind, faces possibly none. Damaged for what is not of it."""
+    """The objects in a file of this format, possibly without faces. Damaged if it does not
+    conform.
+    """
     if kind == "stl":
         return _stl(data)
     return _ply(data) if kind == "ply" else READERS[kind](text_of(data))
 
 
 def text_of(data: bytes) -> str:
-    """Comments and names in Latin-1 or UTF-16 stop no reading."""
+    """Text whose comments and names may be in Latin-1 or UTF-16."""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return data.decode("utf-16", errors="replace")
     try:
@@ -64,11 +68,11 @@ def _obj(text: str) -> list[Part]:
 
 
 def _index(word: str, n: int, line: int) -> int:
-    """From 0, of a vertex that OBJ counts from 1, or back from the last with -1."""
+    """A vertex index from 0; OBJ counts from 1, or backwards from the last vertex with -1."""
     try:
         i = int(word.partition("/")[0])
     except ValueError:
-        raise Damaged(f"a face near line {line} names {word[:20]!r} as a vertex") from None
+        raise Damaged(f"a face near line {line} uses {word[:20]!r} as a vertex") from None
     if i == 0 or i < -n:
         raise Damaged(f"a face near line {line} names vertex {i}; OBJ counts from 1")
     return i - 1 if i > 0 else n + i
@@ -83,14 +87,14 @@ def _off(text: str) -> list[Part]:
     try:
         n, m = (int(w) for w in lines[0][:2])
     except (ValueError, IndexError):
-        raise Damaged("the numbers of vertices and faces do not follow OFF") from None
+        raise Damaged("the numbers of vertices and faces are missing after OFF") from None
     if len(lines) < 1 + n + m:
         raise Damaged(f"it ends before its {n} vertices and {m} faces do")
     v = _floats([w[:3] for w in lines[1 : 1 + n]])
     try:
         faces = [[int(x) for x in w[1 : 1 + int(w[0])]] for w in lines[1 + n : 1 + n + m]]
     except ValueError:
-        raise Damaged("a face is no row of whole numbers") from None
+        raise Damaged("a face is not a row of whole numbers") from None
     return [(v, _checked(v, faces))]
 
 
@@ -110,7 +114,7 @@ def _floats(rows: Sequence[Sequence[str]]) -> np.ndarray:
     try:
         return np.array(rows, dtype=object).reshape(-1, 3).astype(np.float64)
     except ValueError as error:
-        raise Damaged(f"a vertex is no three numbers: {error}") from None
+        raise Damaged(f"a vertex is not three numbers: {error}") from None
 
 
 def _ply(data: bytes) -> list[Part]:
@@ -149,9 +153,9 @@ def _ply_header(head: str) -> tuple[str, list[tuple[str, int, Properties]]]:
             elif words[:1] == ["property"]:
                 elements[-1][2].append((words[2], PLY_TYPES[words[1]], None))
         except (IndexError, KeyError, ValueError):
-            raise Damaged(f"its header says {' '.join(words)[:60]!r}") from None
+            raise Damaged(f"its header contains {' '.join(words)[:60]!r}") from None
     if form not in ("ascii", "binary_little_endian", "binary_big_endian"):
-        raise Damaged(f"its header says format {form[:40]!r}")
+        raise Damaged(f"its header gives the format {form[:40]!r}")
     return form, elements
 
 
@@ -178,7 +182,7 @@ class _PlyText:
                     else:
                         out[name].append(float(self.take(1)[0]))
         except ValueError as error:
-            raise Damaged(f"an element is no row of numbers: {error}") from None
+            raise Damaged(f"an element is not a row of numbers: {error}") from None
         return out
 
 
@@ -202,7 +206,7 @@ class _PlyBytes:
         return self._alike(count, properties) or self._one_by_one(count, properties)
 
     def _alike(self, count: int, properties: Properties) -> Columns | None:
-        """Rows whose lists are all as long as those of the first row, which most files have."""
+        """Rows whose lists all have the length of those in the first row, as in most files."""
         start = self.at
         kind: list[tuple[Any, ...]] = []
         first = self._one_by_one(min(count, 1), properties)
@@ -241,8 +245,8 @@ def _stl(data: bytes) -> list[Part]:
     if len(data) < 84 or (not said and not extra):
         return [(np.empty((0, 3)), np.empty((0, 3), int))]
     raise Damaged(
-        f"its header says {said} triangles, but it is as long as {(len(data) - 84) / 50:.8g}:"
-        " it is cut off or damaged"
+        f"its header gives {said} triangles, but its length fits {(len(data) - 84) / 50:.8g}: it "
+        "is truncated or damaged"
     )
 
 
@@ -256,14 +260,14 @@ def _binary_stl(data: bytes, n: int) -> np.ndarray:
 
 
 def _ascii_stl(text: str) -> np.ndarray:
-    """Corners by the word vertex; the lines that name solids may hold any words."""
+    """Corners found by the word vertex; the lines that name solids may contain any words."""
     words = re.sub(r"(?im)^[ \t]*(end)?solid\b.*$", "", text).lower().split()
     at = [i for i, word in enumerate(words) if word == "vertex"]
     facets, ended = words.count("facet"), words.count("endfacet")
     if len(at) != 3 * facets or ended != facets:
         raise Damaged(
-            f"it begins {facets} facets, ends {ended} and has {len(at)} corners: it is cut off or"
-            " damaged"
+            f"it begins {facets} facets, ends {ended} and has {len(at)} corners: it is truncated "
+            "or damaged"
         )
     return _floats([words[i + 1 : i + 4] for i in at]).reshape(-1, 3, 3)
 

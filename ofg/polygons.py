@@ -1,4 +1,4 @@
-"""Polygons cut into triangles that lie in them, also where a polygon is concave."""
+"""Triangulation of polygons, convex or concave, into triangles that lie inside them."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ from . import exact
 
 
 def triangulated(v: np.ndarray, polygons: Sequence[Sequence[int]] | np.ndarray) -> np.ndarray:
-    """(m, 3) the triangles of polygons given by their vertices, in order: of convex ones a fan.
+    """(m, 3) the triangles of polygons, each given by its vertices in order; a convex polygon gives
+    a fan.
 
-    A fan of a concave polygon has triangles outside it, which would be surface that can be touched.
-    Polygons of fewer than three vertices are dropped.
+    The fan of a concave polygon would have triangles outside it, which would add surface. Polygons
+    with fewer than three vertices are dropped.
     """
     if isinstance(polygons, np.ndarray) and polygons.shape[1] == 3:
         return polygons.astype(np.int64)
@@ -33,7 +34,7 @@ def triangulated(v: np.ndarray, polygons: Sequence[Sequence[int]] | np.ndarray) 
 
 
 def _convex(corners: np.ndarray) -> np.ndarray:
-    """(k,) bool: do polygons (k, n, 3) turn one way at every corner? In doubles."""
+    """(k,) bool: whether polygons (k, n, 3) turn the same way at every corner. In doubles."""
     sides = np.roll(corners, -1, axis=1) - corners
     turns = exact.cross(np.roll(sides, 1, axis=1), sides)
     normal = _normal(corners)[:, None]
@@ -42,14 +43,16 @@ def _convex(corners: np.ndarray) -> np.ndarray:
 
 
 def _normal(corners: np.ndarray) -> np.ndarray:
-    """(k, 3) twice the areas of polygons (k, n, 3), as vectors."""
+    """(k, 3) twice the vector areas of polygons (k, n, 3)."""
     out = corners - corners[:, :1]
     normal: np.ndarray = exact.cross(out, np.roll(out, -1, axis=1)).sum(axis=1)
     return normal
 
 
 def _clipped(corners: np.ndarray, ids: np.ndarray) -> np.ndarray:
-    """Ears cut off one by one, in the plane that the polygon is nearest to; of equals the first."""
+    """Ear clipping in the coordinate plane nearest to the polygon; of equal ears the first is
+    cut.
+    """
     normal = _normal(corners[None])[0]
     drop = int(np.argmax(np.abs(normal)))
     keep = [(1, 2), (2, 0), (0, 1)][drop]
@@ -64,12 +67,14 @@ def _clipped(corners: np.ndarray, ids: np.ndarray) -> np.ndarray:
 
 
 def _is_ear(ring: np.ndarray, k: int) -> bool:
-    """A corner turned outward, whose triangle holds no other corner, on its sides neither."""
+    """Whether a corner is convex and its triangle contains no other corner, not even on its
+    sides.
+    """
     a, b, c = ring[k - 1], ring[k], ring[(k + 1) % len(ring)]
     if _turn(a, b, c) <= 0:
         return False
     inside = (_turn(a, b, ring) >= 0) & (_turn(b, c, ring) >= 0) & (_turn(c, a, ring) >= 0)
-    rest = ring[inside]  # the three themselves, and others at their places
+    rest = ring[inside]  # the three themselves, and coincident corners
     return all((x == a).all() or (x == b).all() or (x == c).all() for x in rest)
 
 

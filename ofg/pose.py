@@ -1,4 +1,4 @@
-"""Where a body stands: a rotation and a position."""
+"""The pose of a body: a rotation and a position."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from .frozen import Frozen
 class Pose(Frozen):
     """World point = N(q)/|q|^2 v + p for a body point v.
 
-    quaternion: (4,) float64, (w, x, y, z), any non-zero length: the rotation it stands for is
+    quaternion: (4,) float64, (w, x, y, z), any non-zero length: it represents the rotation
     N(q)/|q|^2, which needs no normalisation and is rational in q, so the truth can be exact.
     position: (3,) float64, length unit of the bodies. Range: the largest component of the
-    quaternion between 1e-300 and 1e300 in size, positions up to 1e60. Within it a quaternion's
-    length changes nothing. Raises TypeError for what is no numbers; ValueError for a wrong shape, a
-    number that is not finite or out of range, or the zero quaternion.
+    quaternion between 1e-300 and 1e300 in size, positions up to 1e60. Within this range the length
+    of a quaternion does not matter. Raises TypeError for values that are not numbers; ValueError
+    for a wrong shape, a number that is not finite or out of range, or the zero quaternion.
     """
 
     quaternion: np.ndarray = field(default_factory=lambda: np.array([1.0, 0.0, 0.0, 0.0]))
@@ -31,7 +31,7 @@ class Pose(Frozen):
         object.__setattr__(self, "position", checks.vector(self.position, 3, "Pose.position"))
         if not self.quaternion.any():
             raise ValueError(
-                "Pose.quaternion is zero, which is no rotation; use (1, 0, 0, 0) for none."
+                "Pose.quaternion is zero, which is not a rotation; use (1, 0, 0, 0) for none."
             )
         checks.direction(self.quaternion, "Pose.quaternion")
         checks.lengths(self.position, "Pose.position")
@@ -64,7 +64,8 @@ class Pose(Frozen):
 
 
 def near_one(v: np.ndarray) -> np.ndarray:
-    """The vector, or where products of its components may leave the range of doubles the vector
-    times a power of two, which is exact, so that its largest component is near 1. Not for zero."""
+    """The vector, scaled by a power of two (exactly) so that its largest component is near 1 if
+    products of its components could leave the range of doubles. Not for zero.
+    """
     largest = np.abs(v).max()
     return v if 1e-50 < largest < 1e50 else np.ldexp(v, -int(np.frexp(largest)[1]))

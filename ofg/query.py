@@ -1,4 +1,4 @@
-"""One question about two bodies: what every method is asked and every truth is about."""
+"""A query about two bodies: the input of every method and the subject of every truth."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ QUESTIONS = ("overlap", "translation", "motion")
 
 @dataclass(frozen=True, eq=False)
 class Query:
-    """Do the interiors of two solids meet, and from when on?
+    """Do the interiors of two solids intersect, and from what time on?
 
-    question: "overlap": at the given poses. "translation": while the bodies translate in t in [0,
-    1]. "motion": while they turn and translate. motion: that of A. motion_b: that of B, which rests
-    by default. Raises TypeError for a field of another type, ValueError where a motion does not fit
-    the question.
+    question: "overlap": at the given poses. "translation": while the bodies translate over t in [0,
+    1]. "motion": while they rotate and translate. motion: the motion of A. motion_b: the motion of
+    B, which rests by default. Raises TypeError for a field of the wrong type, ValueError if a
+    motion does not fit the question.
     """
 
     question: str
@@ -41,17 +41,17 @@ class Query:
         for name, motion in (("motion", self.motion), ("motion_b", self.motion_b)):
             if self.question == "overlap" and not motion.rests:
                 raise ValueError(
-                    f"Query.question = 'overlap' asks about one pair of poses, but {name} moves;"
-                    " ask 'translation' or 'motion'."
+                    f"Query.question = 'overlap' concerns one pair of poses, but {name} moves; "
+                    "use 'translation' or 'motion'."
                 )
             if self.question == "translation" and motion.angle:
                 raise ValueError(
-                    f"Query.question = 'translation' cannot turn, but {name}.angle is not 0; ask"
-                    " 'motion'."
+                    f"Query.question = 'translation' allows no rotation, but {name}.angle is not "
+                    "0; use 'motion'."
                 )
 
     def swapped(self) -> Query:
-        """The same question with A and B exchanged; its answer is the same."""
+        """The same query with A and B exchanged; its answer is the same."""
         return Query(
             self.question, self.b, self.a, self.pose_b, self.pose_a, self.motion_b, self.motion
         )

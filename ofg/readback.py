@@ -1,6 +1,4 @@
-"""Bodies that were stored, read back vertex for vertex and face for face, and checked as new ones
-are.
-"""
+"""Read back stored bodies with the same vertices and faces, and check them like new bodies."""
 
 from __future__ import annotations
 
@@ -23,12 +21,11 @@ def body(
     piece_faces: ArrayLike = (),
     name: str = "body",
 ) -> Body:
-    """The body that these arrays are of, unchanged. BodyError where no constructor would have made
-    it.
+    """The body with exactly these arrays. BodyError if no constructor would have made it.
 
-    vertices: 3 n numbers or (n, 3). faces: 3 m indices or (m, 3); of a union those of its pieces,
-    one piece after another, counted through. piece_vertices, piece_faces: how many each piece of a
-    union has.
+    vertices: 3 n numbers or (n, 3). faces: 3 m indices or (m, 3); for a union, the faces of its
+    pieces, one piece after another, with indices into all vertices. piece_vertices, piece_faces:
+    the numbers of vertices and faces of each piece of a union.
     """
     who = f"Body '{checks.shown(name)[1:-1]}'"
     if kind not in ("convex", "mesh", "union"):
@@ -49,7 +46,8 @@ def body(
     )
     if len(v0) != len(f0):
         raise BodyError(
-            f"{who}: it counts the vertices of {len(v0) - 1} pieces and the faces of {len(f0) - 1}."
+            f"{who}: it gives the vertex counts of {len(v0) - 1} pieces but the face counts of "
+            f"{len(f0) - 1}."
         )
     pieces = []
     for i in range(len(v0) - 1):
@@ -62,21 +60,21 @@ def body(
 
 
 def _threes(values: ArrayLike, what: str, who: str) -> np.ndarray:
-    """(n, 3): a flat list in threes."""
+    """(n, 3): a flat list grouped by three."""
     try:
         array = np.asarray(values)
     except (ValueError, OverflowError) as error:
-        raise BodyError(f"{who}: its {what} are no array of numbers ({error}).") from error
+        raise BodyError(f"{who}: its {what} are not an array of numbers ({error}).") from error
     if array.size % 3 or array.size > 3 * MOST or array.dtype.kind not in "iuf":
         raise BodyError(
-            f"{who}: its {what} are {array.size} values of type {array.dtype}; there must be three "
-            f"numbers for each, and {MOST} at most."
+            f"{who}: its {what} are {array.size} values of type {array.dtype}; there must be "
+            f"three numbers for each, and at most {MOST}."
         )
     return array.reshape(-1, 3)
 
 
 def _ends(counts: ArrayLike, total: int, what: str, who: str) -> np.ndarray:
-    """Where each piece begins, then the end."""
+    """The start of each piece, then the end."""
     try:
         n = np.asarray(counts)
     except (ValueError, OverflowError):
@@ -84,14 +82,14 @@ def _ends(counts: ArrayLike, total: int, what: str, who: str) -> np.ndarray:
     fine = n.ndim == 1 and n.size and n.dtype.kind in "iu" and n.min() > 0 and n.max() <= total
     if not fine or sum(n.tolist()) != total:
         raise BodyError(
-            f"{who}: the {what} of its pieces are counted {checks.shown(counts)}; the counts must"
-            f" be above 0 and add up to {total}."
+            f"{who}: the counts of the {what} of its pieces are {checks.shown(counts)}; they must "
+            f"be above 0 and add up to {total}."
         )
     return np.concatenate([[0], np.cumsum(n)])
 
 
 def _check_mesh(v: np.ndarray, f: np.ndarray, who: str) -> None:
-    """Closed, outward and as Body.mesh leaves it."""
+    """Check that a mesh is closed, outward and exactly as Body.mesh would return it."""
     with warnings.catch_warnings():
         warnings.simplefilter("error", solid.BodyWarning)
         try:
@@ -100,25 +98,26 @@ def _check_mesh(v: np.ndarray, f: np.ndarray, who: str) -> None:
             raise BodyError(f"{who}: its surface is inside-out.") from turned
     if w.shape != v.shape or g.shape != f.shape or not (w == v).all() or not (g == f).all():
         raise BodyError(
-            f"{who}: it has vertices or faces that Body.mesh would have left out, or in another"
-            " order."
+            f"{who}: it has vertices or faces that Body.mesh would have dropped, or in another "
+            "order."
         )
 
 
 def _check_convex(v: np.ndarray, f: np.ndarray, who: str) -> None:
-    """Its faces close, use every vertex, and enclose as much as the hull of the vertices."""
+    """Check that the faces close, use every vertex, and enclose the volume of the convex hull."""
     if len(np.unique(f)) != len(v):
         raise BodyError(f"{who}: {len(v) - len(np.unique(f))} of its vertices are on no face.")
     e = surface.Edges(f)
     if (e.uses != 2).any() or (e.unbalanced() > 0).any():
         raise BodyError(
-            f"{who}: its surface is open or runs twice through an edge, so it is no convex body."
+            f"{who}: its surface is open, non-manifold or inconsistently oriented, so it is not a "
+            "convex body."
         )
     hull = Body.convex(v)
     its = winding.signed_volume(hull.vertices, hull.faces)
     own = winding.signed_volume(v, f)
     if not abs(own - its) <= 1e-6 * its + 1e-13 * hull.size**3:
         raise BodyError(
-            f"{who}: its faces enclose {own:.9g} and the hull of its vertices {its:.9g}: it is not"
-            " convex."
+            f"{who}: its faces enclose {own:.9g} and the hull of its vertices {its:.9g}: it is "
+            "not convex."
         )

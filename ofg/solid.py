@@ -1,4 +1,4 @@
-"""What may be a solid: arrays and closed surfaces are checked, put in order or refused."""
+"""Validation of solids: arrays and closed surfaces are checked, normalised or rejected."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 from . import checks, exact, surface, winding
 
 BLOCK = 64  #: neighbouring vertices that are compared with a plane together
-ASKED = 64  #: faces of an inverted shell at which it is asked what the other shells are around it
+ASKED = 64  #: faces of a shell at which winding numbers are evaluated
 
 
 class BodyError(ValueError):
@@ -20,7 +20,7 @@ class BodyError(ValueError):
 
 
 class BodyWarning(UserWarning):
-    """A notice that a mesh was changed to make a body of it: its faces were turned outward."""
+    """A mesh was changed to make it a body: its faces were turned outward."""
 
 
 def points(vertices: ArrayLike, who: str, least: int = 4) -> np.ndarray:
@@ -29,8 +29,8 @@ def points(vertices: ArrayLike, who: str, least: int = 4) -> np.ndarray:
         v = checks.reals(vertices)
     except TypeError as error:
         raise BodyError(
-            f"{who}: vertices are no array of numbers ({error}); give at least four points as an"
-            " (n, 3) array."
+            f"{who}: vertices are not an array of numbers ({error}); give at least four points as "
+            "an (n, 3) array."
         ) from error
     if v.ndim != 2 or v.shape[1] != 3 or len(v) < least:
         raise BodyError(
@@ -39,8 +39,8 @@ def points(vertices: ArrayLike, who: str, least: int = 4) -> np.ndarray:
     bad = np.flatnonzero(~np.isfinite(v).all(axis=1))
     if len(bad):
         raise BodyError(
-            f"{who}: vertex {bad[0]} is {v[bad[0]]}, which is not finite ({len(bad)} such of"
-            f" {len(v)}). Remove or repair these vertices before making a body of them."
+            f"{who}: vertex {bad[0]} is {v[bad[0]]}, which is not finite ({len(bad)} of {len(v)} "
+            "are not). Remove or repair these vertices first."
         )
     return v
 
@@ -72,9 +72,9 @@ def triangles(faces: ArrayLike, n: int, who: str) -> np.ndarray:
 def closed(v: np.ndarray, f: np.ndarray, who: str) -> tuple[np.ndarray, np.ndarray]:
     """The closed outward surface of the same solid, or BodyError (README.md, "What a body may be").
 
-    v: (n, 3), f: (m, 3), checked. Vertices at exactly one place are merged, those without a face
-    dropped; faces that cancel are dropped; the faces without area that are left come last. Faces
-    that are all inward are turned, with a BodyWarning. All else stays in its order.
+    v: (n, 3), f: (m, 3), checked. Vertices at exactly the same place are merged and those without a
+    face dropped; faces that cancel are dropped; the remaining faces without area come last. If all
+    faces are inward, they are reversed, with a BodyWarning. Otherwise the order is kept.
     """
     v, f = surface.merged(v, f)
     require_balance(v, f, who)
@@ -84,16 +84,16 @@ def closed(v: np.ndarray, f: np.ndarray, who: str) -> tuple[np.ndarray, np.ndarr
 
 
 def require_volume(faces: Sized, who: str) -> None:
-    """BodyError where no faces are left."""
+    """Raise BodyError if no faces are left."""
     if not len(faces):
         raise BodyError(
-            f"{who}: its faces lie in planes and cancel each other, so that they enclose nothing. "
-            "A body needs a surface with a volume inside; give a sheet a thickness."
+            f"{who}: its faces lie in planes and cancel each other, so they enclose nothing. A "
+            "body needs a surface that encloses a volume; give a sheet a thickness."
         )
 
 
 def require_balance(v: np.ndarray, f: np.ndarray, who: str) -> None:
-    """Each directed edge as often as its reverse, or BodyError with the remedy."""
+    """Raise BodyError with the remedy unless each directed edge occurs as often as its reverse."""
     e = surface.Edges(f)
     lonely = e.unbalanced() > 0
     if not lonely.any():
@@ -102,8 +102,8 @@ def require_balance(v: np.ndarray, f: np.ndarray, who: str) -> None:
     if holes.any():
         length = closing_weld(v, f)
         remedy = (
-            f"It closes if vertices are merged that are up to {length:.0e} apart: weld={length:.0e}"
-            " of Body.from_file."
+            f"It closes if vertices up to {length:.0e} apart are merged: weld={length:.0e} of "
+            "Body.from_file."
             if length
             else "Close it (trimesh.repair.fill_holes), or take its hull with Body.convex."
         )
@@ -112,16 +112,16 @@ def require_balance(v: np.ndarray, f: np.ndarray, who: str) -> None:
             f" have no opposite partner. {remedy}"
         )
     raise BodyError(
-        f"{who}: neighbouring faces disagree in orientation; {len(np.unique(e.key[lonely]))} of"
-        f" {e.key.max() + 1} edges are run through twice in one direction. Orient the faces alike"
-        " (trimesh.repair.fix_normals)."
+        f"{who}: neighbouring faces disagree in orientation; {len(np.unique(e.key[lonely]))} of "
+        f"{e.key.max() + 1} edges are traversed twice in one direction. Orient the faces "
+        "consistently (trimesh.repair.fix_normals)."
     )
 
 
 def closing_weld(v: np.ndarray, f: np.ndarray) -> float | None:
     """The least power of ten below 1e-3 of the size that welds a mesh shut; None if none does."""
     size = float(np.linalg.norm(np.ptp(v, axis=0)))
-    if not size or len(f) > 300_000:  # it is a hint only
+    if not size or len(f) > 300_000:  # the result is only a hint
         return None
     for power in range(int(np.floor(np.log10(size))) - 9, int(np.floor(np.log10(size))) - 3):
         length = 10.0**power
@@ -135,8 +135,9 @@ def closing_weld(v: np.ndarray, f: np.ndarray) -> float | None:
 
 
 def welded(v: np.ndarray, f: np.ndarray, length: float, who: str) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices closer than `length` made one, at the place of the first. BodyError where chains of
-    such vertices would move one by more than twice the length."""
+    """Merge vertices closer than `length` at the position of the first. BodyError if chains of
+    such vertices would move one by more than twice the length.
+    """
     try:
         fine = checks.number(length, "weld") >= 0
     except (TypeError, ValueError):
@@ -161,24 +162,24 @@ def welded(v: np.ndarray, f: np.ndarray, length: float, who: str) -> tuple[np.nd
     far = np.linalg.norm(v - v[first], axis=1).max()
     if far > 2 * length:
         raise BodyError(
-            f"{who}: weld = {length:g} joins vertices that are {far:.3g} apart, by others between"
-            " them. Give a length well below the mesh's own edges."
+            f"{who}: weld = {length:g} joins vertices that are {far:.3g} apart through others "
+            "between them. Give a length well below the mesh's own edges."
         )
     return v, first[f]
 
 
 def outward(v: np.ndarray, f: np.ndarray, who: str) -> np.ndarray:
-    """The faces with a winding number of 0 or more everywhere, or BodyError.
+    """The faces oriented so that every winding number is 0 or more, or BodyError.
 
-    A shell with negative volume is a cavity if the solid is around it: its winding numbers, which
-    are exact, are then not negative. If all are the other way round, the faces are turned.
+    A shell with negative volume is a cavity if the solid surrounds it: the winding numbers, which
+    are exact, are then not negative. If all are reversed, the faces are turned.
     """
     shell = surface.shells(f)
     sign = np.array([exact.volume_sign(v, f[shell == i]) for i in range(shell.max() + 1)])
     if (sign == 0).any() and len(sign) == 1:
         raise BodyError(
-            f"{who}: the mesh has as much volume inside-out as outward, so its signed volume is 0. "
-            "Orient its parts alike (trimesh.repair.fix_normals)."
+            f"{who}: the mesh has as much volume inside-out as outward, so its signed volume is "
+            "0. Orient its parts consistently (trimesh.repair.fix_normals)."
         )
     if (sign > 0).all():
         return f
@@ -189,23 +190,23 @@ def outward(v: np.ndarray, f: np.ndarray, who: str) -> np.ndarray:
         notice_turned(who)
         return f[:, ::-1]
     raise BodyError(
-        f"{who}: shell {wrong + 1} of {len(sign)} is inside-out and not a cavity of another; it"
-        f" holds the vertex {v[f[shell == wrong][0, 0]]}. Orient the shells outward"
-        " (trimesh.repair.fix_normals with multibody=True)."
+        f"{who}: shell {wrong + 1} of {len(sign)} is inside-out and not a cavity of another; it "
+        f"contains the vertex {v[f[shell == wrong][0, 0]]}. Orient the shells outward "
+        "(trimesh.repair.fix_normals with multibody=True)."
     )
 
 
 def notice_turned(who: str) -> None:
-    """The BodyWarning of a surface that was turned."""
+    """Issue the BodyWarning that a surface was turned."""
     warnings.warn(
-        f"{who}: the mesh is inside-out; its faces are turned outward.", BodyWarning, stacklevel=6
+        f"{who}: the mesh is inside-out; its faces were turned outward.", BodyWarning, stacklevel=6
     )
 
 
 def _wrong(
     v: np.ndarray, f: np.ndarray, shell: np.ndarray, asked: np.ndarray, way: int
 ) -> int | None:
-    """The first of the shells asked at which the winding number, times `way`, is below 0."""
+    """The first of the given shells where the winding number, times `way`, is below 0."""
     broad = ~exact.flat(v, f)
     for i in asked:
         faces = np.flatnonzero((shell == i) & broad)
@@ -220,11 +221,11 @@ def _wrong(
 
 
 def is_convex(v: np.ndarray, f: np.ndarray) -> bool:
-    """Does a closed outward surface bound its own hull? Proved, not to a tolerance.
+    """Whether a closed outward surface bounds its own hull; exact, without a tolerance.
 
-    One closed part; no edge of more than two faces; and every vertex exactly on or behind the plane
-    of every face. Such a surface lies on the hull's and covers it a whole number of times; that the
-    number is 1 is left to the caller, by the volume.
+    It must be one closed part, with no edge of more than two faces, and every vertex must lie
+    exactly on or behind the plane of every face. Such a surface lies on the hull's surface and
+    covers it a whole number of times; the caller checks by volume that this number is 1.
     """
     e = surface.Edges(f)
     if (e.uses != 2).any() or surface.patches(f, e).max() > 0:
@@ -239,9 +240,10 @@ def is_convex(v: np.ndarray, f: np.ndarray) -> bool:
 
 
 def _all_behind(v: np.ndarray, f: np.ndarray, plane: np.ndarray, broad: np.ndarray) -> bool:
-    """Is every vertex on or behind every plane? plane: (m,) a number for the plane of each face.
+    """Whether every vertex is on or behind every plane. plane: (m,) a number for the plane of each
+    face.
 
-    Vertices come in blocks of neighbours: one whose ball is behind a plane needs no further look.
+    Vertices are tested in blocks of neighbours: a block whose ball is behind a plane is done.
     """
     _, first = np.unique(plane[broad], return_index=True)
     of = np.flatnonzero(broad)[first]
@@ -257,7 +259,7 @@ def _all_behind(v: np.ndarray, f: np.ndarray, plane: np.ndarray, broad: np.ndarr
         axis=1
     )
     offset = (a * normal).sum(axis=1)
-    blur = 1e-13 * size * long  # far above rounding: what is within is looked at exactly
+    blur = 1e-13 * size * long  # far above rounding: vertices within it are tested exactly
     for block, m, r in zip(blocks, middle, radius):
         near = np.flatnonzero(normal @ m - offset + r * long + blur >= 0)
         for some in np.array_split(near, -(-len(near) // 4096)) if len(near) else ():

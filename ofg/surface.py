@@ -1,4 +1,4 @@
-"""Closed triangle surfaces: what balances, what cancels, and what hangs together."""
+"""Topology of closed triangle surfaces: balanced edges, cancelling faces, connected parts."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from . import exact
 
 
 def merged(v: np.ndarray, f: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices at exactly one place made one, in the order of their first use; none without a face.
+    """Merge vertices at exactly the same place, in the order of first use; drop those without a
+    face.
 
-    Faces that name a vertex twice after it are left out: their edges balance among themselves.
+    Faces that then use a vertex twice are dropped: their edges balance among themselves.
     """
     v = v + 0.0  # so that -0 and 0 are one number
     _, first, same = np.unique(v, axis=0, return_index=True, return_inverse=True)
@@ -20,17 +21,17 @@ def merged(v: np.ndarray, f: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def compact(v: np.ndarray, f: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Without the faces that name a vertex twice and without the vertices that no face names."""
+    """Without faces that use a vertex twice and without unused vertices."""
     f = f[(f[:, 0] != f[:, 1]) & (f[:, 1] != f[:, 2]) & (f[:, 2] != f[:, 0])]
     used, f = np.unique(f, return_inverse=True)
     return v[used], f.reshape(-1, 3)
 
 
 class Edges:
-    """The three edges of each of m faces, one after another.
+    """The three edges of each of m faces, one face after another.
 
-    key: (3m,) the undirected edge. way: (3m,) 1 or -1, the direction in which the face runs through
-    it. face: (3m,) its face. uses: (3m,) how many faces run through that edge.
+    key: (3m,) the undirected edge. way: (3m,) 1 or -1, the direction in which the face traverses
+    it. face: (3m,) its face. uses: (3m,) the number of faces that share the edge.
     """
 
     def __init__(self, f: np.ndarray):
@@ -42,8 +43,9 @@ class Edges:
         self.uses = count[self.key]
 
     def unbalanced(self, group: np.ndarray | None = None) -> np.ndarray:
-        """(3m,) how much more often its edge is run through one way than the other, in its group of
-        faces ((m,) numbers) if given: 0 where it balances."""
+        """(3m,) how much more often an edge is traversed in one direction than in the other: 0
+        if it balances. Counted within its group of faces ((m,) numbers) if given.
+        """
         key = self.key
         if group is not None:
             key = np.unique(np.stack([group[self.face], key]), axis=1, return_inverse=True)[1]
@@ -59,7 +61,8 @@ def open_edges(f: np.ndarray) -> np.ndarray:
 
 def groups(of: np.ndarray, by: np.ndarray, n: int) -> np.ndarray:
     """(n,) a number for each of n things: equal for two that share a value of `by`. of: (k,) the
-    thing that each value is of."""
+    thing to which each value belongs.
+    """
     by = np.unique(by, return_inverse=True)[1].reshape(-1)
     size = n + by.max(initial=-1) + 1
     graph = coo_array((np.ones(len(of), bool), (of, n + by)), shape=(size, size))
@@ -67,17 +70,18 @@ def groups(of: np.ndarray, by: np.ndarray, n: int) -> np.ndarray:
 
 
 def patches(f: np.ndarray, edges: Edges | None = None) -> np.ndarray:
-    """(m,) a number for each face: equal for faces that hang together by edges of two faces."""
+    """(m,) a number for each face: equal for faces connected through edges of exactly two faces."""
     e = edges or Edges(f)
     plain = e.uses == 2
     return groups(e.face[plain], e.key[plain], len(f))
 
 
 def shells(f: np.ndarray) -> np.ndarray:
-    """(m,) a number for each face of a closed surface: the smallest closed parts that edges tell.
+    """(m,) a number for each face of a closed surface: the smallest closed parts that edges
+    distinguish.
 
-    Patches that are closed by themselves are shells, also where they touch others along an edge;
-    patches that are open hang together by the edges that they share.
+    Patches that are closed by themselves are shells, even if they touch others along an edge; open
+    patches are connected through the edges that they share.
     """
     e = Edges(f)
     patch = patches(f, e)
@@ -87,7 +91,7 @@ def shells(f: np.ndarray) -> np.ndarray:
 
 
 def uncancelled(f: np.ndarray) -> np.ndarray:
-    """The faces without those that lie on an equal one of opposite orientation, pair by pair."""
+    """The faces without pairs of equal faces of opposite orientation."""
     turn = np.argmin(f, axis=1)
     rolled = f[np.arange(len(f))[:, None], (turn[:, None] + np.arange(3)) % 3]
     way = np.where(rolled[:, 1] < rolled[:, 2], 1, -1)
@@ -96,17 +100,17 @@ def uncancelled(f: np.ndarray) -> np.ndarray:
         return f
     net = np.bincount(key, way).astype(int)
     keep = np.zeros(len(f), bool)
-    for i in np.flatnonzero(way * net[key] > 0):  # of several alike the first ones
+    for i in np.flatnonzero(way * net[key] > 0):  # of several equal faces, the first ones
         keep[i] = net[key[i]] != 0
         net[key[i]] -= way[i] if net[key[i]] else 0
     return f[keep]
 
 
 def settled(v: np.ndarray, f: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """A closed surface without what bounds nothing: pairs of faces that cancel, flat parts that are
-    closed by themselves, faces without area that nothing needs. Those that are needed come last.
+    """A closed surface without parts that bound nothing: pairs of faces that cancel, flat parts
+    that are closed by themselves, and unneeded faces without area. Needed ones come last.
 
-    The winding number is that of the surface given, wherever it is defined.
+    The winding number is that of the given surface wherever it is defined.
     """
     f = uncancelled(f)
     flat = exact.flat(v, f)
@@ -121,8 +125,9 @@ def settled(v: np.ndarray, f: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _needed(f: np.ndarray) -> np.ndarray:
-    """Faces without area with the edges that these have in sum, and no others: each connected chain
-    of such edges, which is on one line, seen from one of its vertices. They add no point to it."""
+    """New faces without area whose edges sum to those of the given ones: each connected chain of
+    such edges is collinear and is triangulated from one of its vertices. They add no point.
+    """
     e = Edges(f)
     ends = np.stack([f.ravel(), f[:, [1, 2, 0]].ravel()], axis=1)
     out = [np.empty((0, 3), f.dtype)]
@@ -150,14 +155,14 @@ def _fans(chain: np.ndarray) -> np.ndarray:
 
 
 def _closed_and_flat(v: np.ndarray, f: np.ndarray) -> np.ndarray:
-    """(m,) bool: faces of parts that are closed by themselves and lie in one plane exactly."""
+    """(m,) bool: faces of parts that are closed by themselves and exactly planar."""
     out = np.zeros(len(f), bool)
     part = shells(f)
     order = np.argsort(part, kind="stable")
     for mine in np.split(order, np.flatnonzero(np.diff(part[order])) + 1):
         out[mine] = _in_one_plane(v, f[mine])
     e = Edges(f)
-    if (e.uses > 2).any():  # else the shells are all the parts that are closed
+    if (e.uses > 2).any():  # else the shells are all the closed parts
         plane = coplanar(v, f, e)
         closed = np.ones(plane.max() + 1, bool)
         closed[plane[e.face[e.unbalanced(plane) > 0]]] = False
@@ -170,16 +175,16 @@ def _in_one_plane(v: np.ndarray, f: np.ndarray) -> bool:
     if not len(broad):
         return True
     a, b, c = v[f[broad[0]]][:, None]
-    for many in (slice(8), slice(None)):  # most shells are not flat, and a few vertices tell
+    for many in (slice(8), slice(None)):  # most shells are not flat, which a few vertices show
         if exact.sides(a, b, c, v[np.unique(f)][many]).any():
             return False
     return True
 
 
 def coplanar(v: np.ndarray, f: np.ndarray, e: Edges) -> np.ndarray:
-    """(m,) a number for each face: equal for faces exactly in one plane that share edges.
+    """(m,) a number for each face: equal for exactly coplanar faces that share edges.
 
-    Faces without area are on their own.
+    Faces without area form their own groups.
     """
     broad = ~exact.flat(v, f)
     order = np.argsort(e.key, kind="stable")
@@ -201,8 +206,8 @@ def coplanar(v: np.ndarray, f: np.ndarray, e: Edges) -> np.ndarray:
 def apart(v: np.ndarray, f: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
     """The shells of a surface as (vertices, faces) each, without those that enclose nothing.
 
-    Faces that come one after another and close are a shell of their own, so that bodies that touch
-    with a whole face stay apart if a file holds one after the other.
+    Consecutive faces that close form a separate shell, so bodies that touch along a whole face stay
+    apart if the file lists one after the other.
     """
     v, f = merged(v, f)
     out = []

@@ -1,4 +1,4 @@
-"""The volume of what a closed surface encloses, also where the surface cuts or overlaps itself."""
+"""The volume enclosed by a closed surface, even if the surface intersects or overlaps itself."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ import numpy as np
 
 from . import exact, surface, winding
 
-MOST_CUTS = 5000  #: pairs of faces that cut each other; beyond it no volume is worked out
-THIN = 1e-12  #: cuts shorter than this share of the size are passed over
-NEAR = 1e-14  #: of the largest coordinate: so near to a plane it may be off by rounding alone
+MOST_CUTS = 5000  #: pairs of intersecting faces; beyond it no volume is computed
+THIN = 1e-12  #: cuts shorter than this share of the size are ignored
+NEAR = 1e-14  #: of the largest coordinate: distances to a plane below this may be rounding alone
 Cutters = dict[int, list[tuple[int, bool]]]  #: (other face, whether in the same plane) of each cut
 Reach = tuple[float, float]  #: an interval along a direction
 
 
 class TooManyCuts(ValueError):
-    """The surface cuts itself too often for its volume to be worked out."""
+    """The surface intersects itself too often for its volume to be computed."""
 
 
 def solid_volume(v: np.ndarray, f: np.ndarray) -> float:
-    """The volume of the points whose winding number is not 0. Faces: closed, `surface.settled`.
+    """The volume of the points with a non-zero winding number. Faces: closed, `surface.settled`.
 
-    What lies on the sides of a face is decided exactly. The sum, the cuts and the pieces that
-    faces are cut into are in doubles: some 1e-12 of size^3 may be off where a surface cuts
-    itself. TooManyCuts beyond MOST_CUTS pairs of faces.
+    Which side of a face is solid is decided exactly. The sum, the cuts and the pieces of cut faces
+    are in doubles: the error may reach some 1e-12 of size^3 if a surface intersects itself. Raises
+    TooManyCuts beyond MOST_CUTS pairs of faces.
     """
-    f = f[~exact.flat(v, f)]  # they have no share in a volume
+    f = f[~exact.flat(v, f)]  # they do not contribute to a volume
     centre, size = (v.min(axis=0) + v.max(axis=0)) / 2, float(np.ptp(v, axis=0).max())
     cutters = _cuts(v, f, size)
     weight, busy = _weights(v, f, cutters)
@@ -40,8 +40,9 @@ def solid_volume(v: np.ndarray, f: np.ndarray) -> float:
 
 
 def _weights(v: np.ndarray, f: np.ndarray, cutters: Cutters) -> tuple[np.ndarray, np.ndarray]:
-    """For each face whether the solid is behind it (1), in front (-1) or on both sides or none (0);
-    and which faces are cut, whose pieces differ."""
+    """For each face, whether the solid is behind it (1), in front (-1), or on both sides or none
+    (0); and which faces are cut, so that their pieces differ.
+    """
     cut = np.zeros(len(f), bool)
     cut[list(cutters)] = True
     busy = cut.copy()
@@ -61,7 +62,7 @@ def _weights(v: np.ndarray, f: np.ndarray, cutters: Cutters) -> tuple[np.ndarray
 
 
 def _cuts(v: np.ndarray, f: np.ndarray, size: float) -> Cutters:
-    """For each face that others cut: (other face, whether it lies in the same plane)."""
+    """For each face cut by others: (other face, whether it lies in the same plane)."""
     found: Cutters = {}
     count, plane = 0, surface.coplanar(v, f, surface.Edges(f)).reshape(-1)
     for i, j in _near(v, f):
@@ -69,14 +70,14 @@ def _cuts(v: np.ndarray, f: np.ndarray, size: float) -> Cutters:
             found.setdefault(one, []).append((other, level))
             count += 1
             if count > 2 * MOST_CUTS:
-                raise TooManyCuts(f"more than {MOST_CUTS} pairs of its faces cut each other")
+                raise TooManyCuts(f"more than {MOST_CUTS} pairs of its faces intersect each other")
     return found
 
 
 def _cutting(
     v: np.ndarray, f: np.ndarray, i: np.ndarray, j: np.ndarray, plane: np.ndarray, least: float
 ) -> Iterator[tuple[int, int, bool]]:
-    """(cut face, the other, in one plane?) of those of the pairs i, j (n,) that share a line."""
+    """(cut face, other face, coplanar?) of those pairs i, j (n,) that share a segment."""
     level = plane[i] == plane[j]
     of_i, of_j = np.zeros((2, len(i), 3), np.int8)
     of_j[~level] = _signs(v, f, i[~level], j[~level])
@@ -103,20 +104,21 @@ def _cutting(
 
 
 def _passes(signs: np.ndarray) -> np.ndarray:
-    """Strictly on both sides of a plane."""
+    """Whether it lies strictly on both sides of a plane."""
     passes: np.ndarray = (signs.min(axis=1) < 0) & (signs.max(axis=1) > 0)
     return passes
 
 
 def _reaches(signs: np.ndarray) -> np.ndarray:
-    """Has more than one point in a plane."""
+    """Whether it has more than one point in a plane."""
     reaches: np.ndarray = _passes(signs) | (np.count_nonzero(signs == 0, axis=1) >= 2)
     return reaches
 
 
 def _signs(v: np.ndarray, f: np.ndarray, i: np.ndarray, j: np.ndarray) -> np.ndarray:
-    """(n, 3): the sides of face i that the corners of face j are on; 0 for what is in its plane, or
-    so near that a turn of both may have put it there by rounding."""
+    """(n, 3): the side of face i on which each corner of face j lies; 0 for a corner in its
+    plane, or so near that rotating both may have put it there by rounding.
+    """
     a, b, c = (v[f[i, k]] for k in range(3))
     n, out = _normals(v[f[i]]), np.zeros((len(i), 3), np.int8)
     for k in range(3):
@@ -127,7 +129,7 @@ def _signs(v: np.ndarray, f: np.ndarray, i: np.ndarray, j: np.ndarray) -> np.nda
 
 
 def _near(v: np.ndarray, f: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Pairs (i, j) of faces whose boxes meet, in batches: swept along the longest side."""
+    """Pairs (i, j) of faces whose boxes intersect, in batches: a sweep along the longest side."""
     low, high = v[f].min(axis=1), v[f].max(axis=1)
     axis = int(np.argmax(np.ptp(v, axis=0)))
     order = np.argsort(low[:, axis], kind="stable")
@@ -162,8 +164,10 @@ def _section(points: np.ndarray, at: np.ndarray, n: np.ndarray, along: np.ndarra
 
 
 def _common(s: np.ndarray, t: np.ndarray, of_s: np.ndarray, of_t: np.ndarray) -> np.ndarray:
-    """(n,) the length of the segment that triangles s, t (n, 3, 3) in different planes share, 0 or
-    less if none; of_s, of_t: (n, 3) the sides of the other's plane that their corners are on."""
+    """(n,) the length of the segment shared by triangles s, t (n, 3, 3) in different planes, 0
+    or less if none; of_s, of_t: (n, 3) the sides of the other's plane on which their corners
+    lie.
+    """
     n, m = _normals(s), _normals(t)
     along = np.cross(n, m)
     along /= np.linalg.norm(along, axis=1)[:, None]
@@ -182,7 +186,7 @@ def _normals(t: np.ndarray) -> np.ndarray:
 def _reach(
     t: np.ndarray, of: np.ndarray, at: np.ndarray, n: np.ndarray, along: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The intervals along directions of triangles in planes; corners are on the sides `of`."""
+    """The intervals along directions of triangles in planes; `of`: the sides of their corners."""
     height = ((t - at[:, None]) * n[:, None]).sum(axis=2)
     place = (t * along[:, None]).sum(axis=2)
     low, high = np.full(len(t), np.inf), np.full(len(t), -np.inf)
@@ -201,7 +205,7 @@ def _reach(
 
 
 def _overlap(s: np.ndarray, t: np.ndarray, least: float) -> np.ndarray:
-    """(n,) bool: do triangles s, t (n, 3, 3) in one plane share more than a line?"""
+    """(n,) bool: whether coplanar triangles s, t (n, 3, 3) share more than a line."""
     n, out = _normals(s), np.ones(len(s), bool)
     for one, other in ((s, t), (t, s)):
         for k in range(3):
@@ -220,7 +224,7 @@ def _overlap(s: np.ndarray, t: np.ndarray, least: float) -> np.ndarray:
 def _split(
     v: np.ndarray, f: np.ndarray, face: int, cutters: list[tuple[int, bool]], size: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """((n, 3, 3) triangles, (n,) weights) of a face in the pieces that the others cut it into."""
+    """((n, 3, 3) triangles, (n,) weights) of the pieces into which other faces cut a face."""
     corners = v[f[face]]
     at, n = _plane(corners)
     pieces, level = [corners], [i for i, same in cutters if same]
@@ -242,7 +246,7 @@ def _split(
 
 
 def _walls(t: np.ndarray, n: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Planes through the edges of a triangle, upright on it."""
+    """Planes through the edges of a triangle, perpendicular to it."""
     for p, q in zip(t, np.roll(t, -1, axis=0)):
         m = np.cross(q - p, n)
         yield p, m / np.linalg.norm(m)
@@ -284,7 +288,7 @@ def _weight(
         p = (piece * (shares / shares.sum())[:, None]).sum(axis=0)
         on = [(i, 1 if _plane(v[f[i]])[1] @ n > 0 else -1) for i in level if _holds(v[f[i]], p)]
         if any(i < face for i, _ in on):
-            return 0  # the first of faces on one another counts for all
+            return 0  # of coincident faces, the first counts for all
         normal = winding.normal_of([exact.rational(c) for c in v[f[face]]])
         try:
             front, grazed = winding.crossed_ahead(v, f, exact.rational(p), normal, [face, *level])
@@ -292,7 +296,7 @@ def _weight(
             continue
         back = front + 1 + sum(way for _, way in on)
         return int(back != 0) - int(front != 0)
-    return 0  # on other edges wherever it is looked at: too thin to tell, and to matter
+    return 0  # edges of other faces at every point tried: too thin to decide, and to matter
 
 
 def _holds(t: np.ndarray, p: np.ndarray) -> bool:

@@ -1,4 +1,4 @@
-"""Files that are there whole or not at all, also after a kill or a loss of power."""
+"""Atomic file writes: a file is complete or absent, even after a kill or a loss of power."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ _TEMPORARY = re.compile(r"\..+\.[0-9a-f]{8}\.unfinished")
 
 
 def write(path: Path, fill: Callable[[Path], object]) -> None:
-    """Replace `path` by what fill(temporary) writes: beside it, synced, and then renamed.
+    """Replace `path` by the output of fill(temporary): written beside it, synced, then renamed.
 
-    Its permissions are those of any new file (the umask's), so that others may read it where the
-    folder lets them. Raises what `fill` raises, and OSError; the temporary file is then gone.
+    It gets the permissions of any new file (by the umask), so others may read it if the folder
+    permits. Raises what `fill` raises, and OSError; the temporary file is then removed.
     """
     temporary = temporary_of(path)
     try:
@@ -29,15 +29,15 @@ def write(path: Path, fill: Callable[[Path], object]) -> None:
 
 
 def temporary_of(path: Path) -> Path:
-    """A name beside `path` that `leftovers` knows and nobody else uses."""
+    """A unique name beside `path` that `leftovers` recognises."""
     return path.with_name(f".{path.name}.{secrets.token_hex(4)}.unfinished")
 
 
 def place(temporary: Path, path: Path) -> None:
-    """Sync a finished file and give it its name. OSError."""
+    """Sync a finished file and give it its name. Raises OSError."""
     _sync(temporary)
     os.replace(temporary, path)
-    # a file system that cannot sync a folder has renamed the file all the same
+    # A file system that cannot sync a folder has still renamed the file.
     with contextlib.suppress(OSError):
         _sync(path.parent)
 

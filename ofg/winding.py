@@ -1,4 +1,4 @@
-"""Winding numbers of closed surfaces: about points, and on the two sides of a face."""
+"""Exact winding numbers of closed surfaces: at points, and on the two sides of a face."""
 
 from __future__ import annotations
 
@@ -9,22 +9,29 @@ import numpy as np
 
 from . import exact, surface
 
-# Directions of rays: small whole numbers that few edges are parallel to.
+# Directions of rays: small integers to which few edges are parallel.
 RAYS = ((3, 5, 7), (-7, 4, 3), (5, -8, 6), (-2, -7, 9), (11, 3, -8), (1, 12, -5), (-9, -4, -13))
-WEIGHTS = ((1, 1, 1), (2, 1, 1), (1, 3, 2), (5, 2, 3), (2, 3, 7))  #: points of a face
+#: barycentric weights of points of a face
+WEIGHTS = (
+    (1, 1, 1),
+    (2, 1, 1),
+    (1, 3, 2),
+    (5, 2, 3),
+    (2, 3, 7),
+)
 Vector = Sequence[Fraction]  #: of three
-MOST_CUTS = 4000  #: faces cut by others that a volume is worked out for
+MOST_CUTS = 4000  #: limit on faces cut by others when a volume is computed
 
 
 class Unclear(ValueError):
-    """The point asked about lies on the surface, or no ray tells."""
+    """The point lies on the surface, or no ray gives a decision."""
 
 
 def beside(v: np.ndarray, f: np.ndarray, face: int) -> tuple[int, int, bool]:
     """(front, back, first): winding numbers just in front of a face with an area and just behind
-    it, at a point inside it; first: no face before it lies there too. Exact.
+    it, at a point inside it; first: whether no earlier face lies there too. Exact.
 
-    Faces that lie on it and run the same way count with it; where the face is cut by others the
+    Coincident faces of the same orientation count with it; if the face is cut by others, the
     numbers are those at one of its points.
     """
     for weights in WEIGHTS:
@@ -36,11 +43,11 @@ def beside(v: np.ndarray, f: np.ndarray, face: int) -> tuple[int, int, bool]:
         except Unclear:
             continue
         return ahead, ahead + 1 + sum(way for _, way in on), all(i > face for i, _ in on)
-    raise Unclear(f"face {face} has other edges on it wherever it is looked at")
+    raise Unclear(f"face {face} has other edges on it at every point tried")
 
 
 def at(v: np.ndarray, f: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """(n,) winding numbers about (n, 3) points; 0 for a point on the surface."""
+    """(n,) winding numbers at (n, 3) points; 0 for a point on the surface."""
     out = np.zeros(len(points), int)
     low, high = v.min(axis=0), v.max(axis=0)
     for i in np.flatnonzero(((points > low) & (points < high)).all(axis=1)):
@@ -59,9 +66,11 @@ def crossed_ahead(
     normal: Vector | None = None,
     skip: Iterable[int] = (),
 ) -> tuple[int, list[tuple[int, int]]]:
-    """(crossings, on): signed crossings of a ray from p with all faces but `skip`; the faces that p
-    lies inside, with the way each runs compared with `normal`. p: three Fractions. The ray leaves
-    to the side that `normal` points to. Unclear where p is on an edge, or no ray tells."""
+    """(crossings, on): signed crossings of a ray from p with all faces but `skip`; the faces
+    that contain p, with the orientation of each relative to `normal`. p: three Fractions. The
+    ray leaves on the side to which `normal` points. Raises Unclear if p is on an edge, or no ray
+    decides.
+    """
     near = np.array([float(c) for c in p])
     with np.errstate(all="ignore"):
         w = v[f] - near
@@ -94,17 +103,17 @@ def crossed_ahead(
         except _Grazed:
             continue
         return total, on
-    raise Unclear("no ray tells")
+    raise Unclear("no ray gives a decision")
 
 
 class _Grazed(Exception):
-    """The ray goes through an edge, a vertex or the plane of a face."""
+    """The ray passes through an edge, a vertex or the plane of a face."""
 
 
 def _crossed(
     corners: np.ndarray, p: Vector, ray: np.ndarray, normal: Vector | None
 ) -> tuple[int, int]:
-    """(crossing, way) of one face, by rationals."""
+    """(crossing, way) of one face, in rationals."""
     w = [[c - q for c, q in zip(exact.rational(x), p)] for x in corners]
     d = exact.rational(ray)
     area = _cross([b - a for a, b in zip(w[0], w[1])], [b - a for a, b in zip(w[0], w[2])])
@@ -141,17 +150,18 @@ def _dot(a: Vector, b: Vector) -> Fraction:
 
 
 def signed_volume(v: np.ndarray, f: np.ndarray) -> float:
-    """The sum over the faces: each region counts as often as its winding number says."""
+    """The signed volume of the faces: each region counts as often as its winding number."""
     size = np.abs(v).max()
-    v = (v - v.mean(axis=0)) / size  # so that nothing is below the smallest double on the way
+    v = (v - v.mean(axis=0)) / size  # avoids underflow on the way
     a, b, c = (v[f[:, i]] for i in range(3))
     return float((a * exact.cross(b, c)).sum() / 6) * float(size) ** 3
 
 
 def bounding(v: np.ndarray, f: np.ndarray) -> np.ndarray:
-    """(m,) of -1, 0, 1: is the solid (winding number not 0) behind each face alone, on both or on
-    neither side, or in front alone? Of faces on one another the first counts for all. For surfaces
-    that do not cut themselves; faces without area have 0."""
+    """(m,) of -1, 0, 1: whether the solid (non-zero winding number) is behind each face only
+    (1), on both sides or neither (0), or in front only (-1). Of coincident faces the first
+    counts for all. For surfaces without self-intersections; faces without area have 0.
+    """
     out = np.zeros(len(f), int)
     broad = np.flatnonzero(~exact.flat(v, f))
     patch = surface.patches(f)

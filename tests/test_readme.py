@@ -87,7 +87,7 @@ def test_what_it_names_exists(target):
     "words, expected",
     [
         (["run", "qick"], "did you mean quick"),
-        (["tables", "nowhere"], "no run folder"),
+        (["tables", "nowhere"], "not a run folder"),
         (["check", "fcl-convx"], "fcl-convex"),
         (["list", "--methods", "nowhere.py"], "does not exist"),
     ],

@@ -22,35 +22,26 @@ std::vector<casts::Points> pieces(const double* points, const std::int64_t* size
   return made;
 }
 
-double radius(const casts::Points& points) {
-  double far = 0;
-  for (const auto& point : points) far = std::max(far, point.length());
-  return far;
-}
-
-// A cast in the native lane, of translations, as the method of its name in bullet_casts.py asks it.
-struct Cast : lane::Engine {
+// A cast in the native lane, as the method of its name in bullet_casts.py asks it.
+struct Cast final : lane::Engine {
   casts::Options options;
+  const double leg_turn;  // the largest turn of one cast
+  const bool exact;       // the start is tested, in bodies of radius 1
   std::vector<casts::Question> questions;
 
-  Cast(const char* name, casts::Kind kind) : Engine(name) { options.kind = kind; }
+  Cast(const char* name, const casts::Options& o, double turn, bool e)
+      : Engine(name), options(o), leg_turn(turn), exact(e) {}
 
   bool answers(lane::Question question) const override {
-    return question == lane::Question::translation;
+    return question == lane::Question::translation ||
+           (question == lane::Question::motion && options.kind == casts::Kind::continuous);
   }
 
-  // The units that a case is asked in.
-  virtual double unit(const casts::Points&, const casts::Points&) const { return 1; }
-
   void build(const std::vector<lane::Body>& bodies, const std::vector<lane::Case>& cases) override {
-    for (const auto& c : cases) {
-      auto a = points(bodies[c.a]), b = points(bodies[c.b]);
-      const double u = unit(a, b);
-      for (auto* body : {&a, &b})
-        for (auto& point : *body) point *= u;
-      questions.emplace_back(options, std::vector<casts::Points>{a}, std::vector<casts::Points>{b},
-                             std::vector<casts::Leg>{leg(c, u)});
-    }
+    if (exact && length > 0) options.start_unit = 1 / length;
+    for (const auto& c : cases)
+      questions.emplace_back(options, std::vector<casts::Points>{points(bodies[c.a])},
+                             std::vector<casts::Points>{points(bodies[c.b])}, legs(c));
   }
 
   lane::Verdict ask(std::size_t i) override {
@@ -66,28 +57,18 @@ struct Cast : lane::Engine {
     return made;
   }
 
-  // B is at the origin, as in units.py.
-  static casts::Leg leg(const lane::Case& c, double u) {
-    const auto turn = [](const auto& q) { return btQuaternion(q[1], q[2], q[3], q[0]); };
-    const auto vector = [](const auto& v) { return btVector3(v[0], v[1], v[2]); };
-    const btVector3 at = u * (vector(c.pose_a.p) - vector(c.pose_b.p));
-    const btTransform a(turn(c.pose_a.q), at), b(turn(c.pose_b.q), btVector3(0, 0, 0));
-    return {a, btTransform(a.getBasis(), at + u * vector(c.displacement)), b, b};
-  }
-};
-
-struct Exact final : Cast {
-  const double length;
-
-  Exact(const char* name, casts::Kind kind, int power, double margin)
-      : Cast(name, kind), length(std::exp2(power)) {
-    options.margin = margin;
-    options.start_unit = 1 / length;
-    options.halvings = 20;
+  static btTransform placed(const lane::Pose& p) {
+    const double numbers[] = {p.p[0], p.p[1], p.p[2], p.q[0], p.q[1], p.q[2], p.q[3]};
+    return transform(numbers);
   }
 
-  double unit(const casts::Points& a, const casts::Points& b) const override {
-    return std::exp2(std::round(std::log2(length / std::min(radius(a), radius(b)))));
+  std::vector<casts::Leg> legs(const lane::Case& c) const {
+    const int n = std::max(1, int(std::ceil(std::abs(c.angle) / leg_turn)));
+    const btTransform b = placed(c.pose_b);
+    std::vector<casts::Leg> path;
+    for (int i = 0; i < n; ++i)
+      path.push_back({placed(c.at(double(i) / n)), placed(c.at(double(i + 1) / n)), b, b});
+    return path;
   }
 };
 
@@ -123,11 +104,16 @@ int bullet_casts_ask(casts::Question* question, double* time) {
 
 extern "C" void lane_engines(lane::Engines& engines) {
   using casts::Kind;
-  const auto add = [&](auto engine) { engines.push_back(std::move(engine)); };
-  add(std::make_unique<Cast>("bullet-subsimplex-cast", Kind::subsimplex));
-  add(std::make_unique<Cast>("bullet-gjk-cast", Kind::gjk));
-  add(std::make_unique<Cast>("bullet-continuous-cast", Kind::continuous));
-  add(std::make_unique<Exact>("bullet-subsimplex-cast-exact", Kind::subsimplex, 15, 0));
-  add(std::make_unique<Exact>("bullet-gjk-cast-exact", Kind::gjk, 18, 0.001));
-  add(std::make_unique<Exact>("bullet-continuous-cast-exact", Kind::continuous, 15, 0));
+  constexpr double any = 1e300, eighth = M_PI / 4;  // turns
+  const auto add = [&](const char* name, Kind kind, double margin, int halvings, double turn,
+                       bool exact) {
+    engines.push_back(
+        std::make_unique<Cast>(name, casts::Options{kind, margin, 0, halvings}, turn, exact));
+  };
+  add("bullet-subsimplex-cast", Kind::subsimplex, -1, 0, any, false);
+  add("bullet-gjk-cast", Kind::gjk, -1, 0, any, false);
+  add("bullet-continuous-cast", Kind::continuous, -1, 0, any, false);
+  add("bullet-subsimplex-cast-exact", Kind::subsimplex, 0, 0, any, true);
+  add("bullet-gjk-cast-exact", Kind::gjk, 0.001, 0, any, true);
+  add("bullet-continuous-cast-exact", Kind::continuous, 0, 20, eighth, true);
 }

@@ -1,4 +1,4 @@
-// Coal from its wheel: prepared ComputeCollision on hulls.
+// Coal from its wheel: prepared ComputeCollision, as baselines/coal.py asks it.
 #include <coal/BVH/BVH_model.h>
 #include <coal/collision.h>
 #include <coal/shape/convex.h>
@@ -9,16 +9,20 @@ namespace {
 
 using Geometry = std::shared_ptr<coal::CollisionGeometry>;
 
-void arrays(const lane::Body& body, std::vector<coal::Vec3s>& points, std::vector<coal::Triangle>& triangles) {
-  for (std::size_t i = 0; i < body.n(); ++i) points.emplace_back(body.vertices[3 * i], body.vertices[3 * i + 1], body.vertices[3 * i + 2]);
-  for (std::size_t i = 0; i < body.m(); ++i) triangles.emplace_back(body.faces[3 * i], body.faces[3 * i + 1], body.faces[3 * i + 2]);
+void arrays(const lane::Body& body, std::vector<coal::Vec3s>& points,
+            std::vector<coal::Triangle>& triangles) {
+  const auto& v = body.vertices;
+  const auto& f = body.faces;
+  for (std::size_t i = 0; i < v.size(); i += 3) points.emplace_back(v[i], v[i + 1], v[i + 2]);
+  for (std::size_t i = 0; i < f.size(); i += 3) triangles.emplace_back(f[i], f[i + 1], f[i + 2]);
 }
 
 Geometry convex(const lane::Body& body) {
   auto points = std::make_shared<std::vector<coal::Vec3s>>();
   auto triangles = std::make_shared<std::vector<coal::Triangle>>();
   arrays(body, *points, *triangles);
-  return std::make_shared<coal::Convex<coal::Triangle>>(points, unsigned(points->size()), triangles, unsigned(triangles->size()));
+  return std::make_shared<coal::Convex<coal::Triangle>>(points, unsigned(points->size()), triangles,
+                                                        unsigned(triangles->size()));
 }
 
 Geometry mesh(const lane::Body& body) {
@@ -39,15 +43,17 @@ coal::Transform3s transform(const lane::Pose& pose) {
   return {r, coal::Vec3s(pose.p[0], pose.p[1], pose.p[2])};
 }
 
-struct Coal final : lane::Engine {
-  Geometry (*shape)(const lane::Body&);
+template <class Base>
+struct Coal : Base {
+  Geometry (*const shape)(const lane::Body&);
   coal::CollisionRequest request;
   std::vector<Geometry> shapes;
   std::vector<coal::ComputeCollision> collide;
   std::vector<coal::Transform3s> a, b;
   coal::CollisionResult result;
 
-  Coal(const char* name, Geometry (*make)(const lane::Body&), bool exact) : Engine(name), shape(make) {
+  Coal(const char* name, Geometry (*make)(const lane::Body&), bool exact)
+      : Base(name), shape(make) {
     if (!exact) return;
     request = coal::CollisionRequest(coal::NO_REQUEST, 1);
     request.gjk_tolerance = request.epa_tolerance = 1e-12;
@@ -64,14 +70,30 @@ struct Coal final : lane::Engine {
 
   lane::Verdict ask(std::size_t i) override {
     result.clear();
-    return {collide[i](a[i], b[i], request, result) > 0};
+    const bool hit = collide[i](a[i], b[i], request, result) > 0;
+    request.updateGuess(result);  // does nothing unless the guess is a cached one
+    return {hit};
+  }
+};
+
+struct Guessing final : Coal<lane::Remembering> {
+  Guessing(const char* name, bool exact) : Coal(name, convex, exact) {
+    request.gjk_initial_guess = coal::GJKInitialGuess::CachedGuess;
+  }
+  void forget() override {
+    request.cached_gjk_guess = coal::Vec3s(1, 0, 0);
+    request.cached_support_func_guess.setZero();
   }
 };
 
 }  // namespace
 
 extern "C" void lane_engines(lane::Engines& engines) {
-  engines.push_back(std::make_unique<Coal>("coal-convex", convex, false));
-  engines.push_back(std::make_unique<Coal>("coal-convex-exact", convex, true));
-  engines.push_back(std::make_unique<Coal>("coal-mesh", mesh, false));
+  using Hulls = Coal<lane::Engine>;
+  const auto add = [&](auto engine) { engines.push_back(std::move(engine)); };
+  add(std::make_unique<Hulls>("coal-convex", convex, false));
+  add(std::make_unique<Hulls>("coal-convex-exact", convex, true));
+  add(std::make_unique<Coal<lane::Surfaces>>("coal-mesh", mesh, false));
+  add(std::make_unique<Guessing>("coal-convex, cached guess", false));
+  add(std::make_unique<Guessing>("coal-convex-exact, cached guess", true));
 }

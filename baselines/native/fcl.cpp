@@ -1,95 +1,54 @@
-// FCL: convex and mesh overlap, conservative advancement for translations.
-#include <fcl/fcl.h>
-
-#include "lane.hpp"
+// FCL's overlap tests, of convex bodies by both of its solvers and of surfaces, as baselines/fcl.py
+// asks them. Transforms are made beforehand.
+#include "fcl_shapes.hpp"
 
 namespace {
 
-using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
+template <class Base>
+struct Overlap : Base {
+  shapes::Geometry (*const shape)(const lane::Body&);
+  fcl::CollisionRequestd request;
+  std::vector<shapes::Geometry> made;
+  std::vector<const fcl::CollisionGeometryd*> a, b;
+  std::vector<fcl::Transform3d, Eigen::aligned_allocator<fcl::Transform3d>> at_a, at_b;
 
-Geometry convex(const lane::Body& body) {
-  auto points = std::make_shared<std::vector<fcl::Vector3d>>();
-  for (std::size_t i = 0; i < body.n(); ++i) points->emplace_back(body.vertices[3 * i], body.vertices[3 * i + 1], body.vertices[3 * i + 2]);
-  auto faces = std::make_shared<std::vector<int>>();
-  for (std::size_t i = 0; i < body.m(); ++i) faces->insert(faces->end(), {3, body.faces[3 * i], body.faces[3 * i + 1], body.faces[3 * i + 2]});
-  return std::make_shared<fcl::Convexd>(points, int(body.m()), faces);
-}
-
-Geometry mesh(const lane::Body& body) {
-  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-  std::vector<fcl::Vector3d> points;
-  std::vector<fcl::Triangle> triangles;
-  for (std::size_t i = 0; i < body.n(); ++i) points.emplace_back(body.vertices[3 * i], body.vertices[3 * i + 1], body.vertices[3 * i + 2]);
-  for (std::size_t i = 0; i < body.m(); ++i) triangles.emplace_back(body.faces[3 * i], body.faces[3 * i + 1], body.faces[3 * i + 2]);
-  model->beginModel(int(triangles.size()), int(points.size()));
-  model->addSubModel(points, triangles);
-  model->endModel();
-  return model;
-}
-
-fcl::Transform3d transform(const lane::Pose& pose) {
-  fcl::Transform3d t = fcl::Transform3d::Identity();
-  const auto m = pose.matrix();
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) t.linear()(i, j) = m[3 * i + j];
-    t.translation()[i] = pose.p[i];
+  Overlap(const char* name, shapes::Geometry (*make)(const lane::Body&), fcl::GJKSolverType solver)
+      : Base(name), shape(make) {
+    request.gjk_solver_type = solver;
   }
-  return t;
-}
-
-struct Fcl : lane::Engine {
-  Geometry (*shape)(const lane::Body&);
-  std::vector<std::unique_ptr<fcl::CollisionObjectd>> a, b;
-  std::vector<fcl::Transform3d> at, end;
-
-  Fcl(const char* name, Geometry (*make)(const lane::Body&)) : Engine(name), shape(make) {}
 
   void build(const std::vector<lane::Body>& bodies, const std::vector<lane::Case>& cases) override {
-    std::vector<Geometry> shapes;
-    for (const auto& body : bodies) shapes.push_back(shape(body));
+    for (const auto& body : bodies) made.push_back(shape(body));
     for (const auto& c : cases) {
-      at.push_back(transform(c.pose_a));
-      end.push_back(at.back());
-      for (int i = 0; i < 3; ++i) end.back().translation()[i] += c.displacement[i];
-      a.push_back(std::make_unique<fcl::CollisionObjectd>(shapes[c.a], at.back()));
-      b.push_back(std::make_unique<fcl::CollisionObjectd>(shapes[c.b], transform(c.pose_b)));
+      a.push_back(made[c.a].get()), b.push_back(made[c.b].get());
+      at_a.push_back(shapes::transform(c.pose_a)), at_b.push_back(shapes::transform(c.pose_b));
     }
   }
-};
-
-struct Overlap final : Fcl {
-  using Fcl::Fcl;
-  const fcl::CollisionRequestd request;
 
   lane::Verdict ask(std::size_t i) override {
-    a[i]->setTransform(at[i]);
     fcl::CollisionResultd result;
-    return {fcl::collide(a[i].get(), b[i].get(), request, result) > 0};
+    const bool hit = fcl::collide(a[i], at_a[i], b[i], at_b[i], request, result) > 0;
+    if (request.enable_cached_gjk_guess) request.cached_gjk_guess = result.cached_gjk_guess;
+    return {hit};
   }
 };
 
-struct Advancement final : Fcl {
-  fcl::ContinuousCollisionRequestd request;
-
-  Advancement() : Fcl("fcl-advancement-convex toc_err=0.0001 path=trans", convex) {
-    request.num_max_iterations = 1000;
-    request.ccd_motion_type = fcl::CCDM_TRANS;
-    request.gjk_solver_type = fcl::GST_INDEP;
-    request.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+// FCL's own solver takes a guess, libccd none.
+struct Guessing final : Overlap<lane::Remembering> {
+  Guessing() : Overlap("fcl-convex-indep, cached guess", shapes::convex, fcl::GST_INDEP) {
+    request.enable_cached_gjk_guess = true;
   }
-  bool answers(lane::Question question) const override { return question == lane::Question::translation; }
-
-  lane::Verdict ask(std::size_t i) override {
-    fcl::ContinuousCollisionResultd result;
-    fcl::continuousCollide(a[i].get(), end[i], b[i].get(), b[i]->getTransform(), request, result);
-    return {result.is_collide, result.is_collide ? result.time_of_contact : std::nan("")};
-  }
+  void forget() override { request.cached_gjk_guess = fcl::Vector3d::UnitX(); }
 };
 
 }  // namespace
 
 extern "C" void lane_engines(lane::Engines& engines) {
-  engines.push_back(std::make_unique<Overlap>("fcl-convex", convex));
-  engines.push_back(std::make_unique<Overlap>("fcl-mesh", mesh));
-  engines.push_back(std::make_unique<Advancement>());
+  using Hulls = Overlap<lane::Engine>;
+  const auto add = [&](auto engine) { engines.push_back(std::move(engine)); };
+  add(std::make_unique<Hulls>("fcl-convex", shapes::convex, fcl::GST_LIBCCD));
+  add(std::make_unique<Hulls>("fcl-convex-exact", shapes::convex, fcl::GST_LIBCCD));
+  add(std::make_unique<Hulls>("fcl-convex-indep", shapes::convex, fcl::GST_INDEP));
+  add(std::make_unique<Guessing>());
+  add(std::make_unique<Overlap<lane::Surfaces>>("fcl-mesh", shapes::mesh, fcl::GST_LIBCCD));
 }

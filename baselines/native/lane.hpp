@@ -1,7 +1,8 @@
-// The native lane: the same cases as the Python lane, asked of the libraries themselves.
+// The native lane: engines asked from C++, timed against each other by `lane` (main.cpp).
 //
-// Each engine is a plugin of its own (a shared library), opened apart from the others: they carry copies of the same dependencies in
-// different versions, and one that is not installed is simply not built.
+// Each engine is a plugin of its own (a shared library), opened apart from the others: they carry
+// copies of the same dependencies in different versions, and one that is not installed is simply
+// not built.
 #pragma once
 #include <array>
 #include <cmath>
@@ -10,11 +11,22 @@
 #include <string>
 #include <vector>
 
+// What the CMake file says of a plugin: the instruction set it is compiled for, and who built the
+// library.
+#ifndef LANE_ISA
+#define LANE_ISA "generic"
+#endif
+#ifndef LANE_BUILD
+#define LANE_BUILD "built here"
+#endif
+
 namespace lane {
 
 struct Body {
-  std::vector<double> vertices;  // 3 n
+  std::vector<double> vertices;     // 3 n
   std::vector<std::int32_t> faces;  // 3 m
+  double radius = 0;                // of its frame's origin to the farthest vertex
+  bool convex = true;               // else a closed mesh
   std::size_t n() const { return vertices.size() / 3; }
   std::size_t m() const { return faces.size() / 3; }
 };
@@ -25,8 +37,9 @@ struct Pose {
 
   std::array<double, 9> matrix() const {  // row by row
     const auto [w, x, y, z] = q;
-    return {1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-            2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)};
+    return {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
+            2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+            2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
   }
 };
 
@@ -38,6 +51,19 @@ struct Case {
   Pose pose_a, pose_b;
   std::array<double, 3> displacement, axis;  // axis of length 1
   double angle;
+
+  // Where A is at a share t of the step; it turns about its own origin.
+  Pose at(double t) const {
+    Pose pose = pose_a;
+    for (int i = 0; i < 3; ++i) pose.p[i] += t * displacement[i];
+    if (angle == 0) return pose;
+    const double s = std::sin(angle * t / 2), w = std::cos(angle * t / 2);
+    const double x = s * axis[0], y = s * axis[1], z = s * axis[2];
+    const auto [a, b, c, d] = pose_a.q;
+    pose.q = {w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c,
+              w * c - x * d + y * a + z * b, w * d + x * c - y * b + z * a};
+    return pose;
+  }
 };
 
 struct Verdict {
@@ -45,15 +71,41 @@ struct Verdict {
   double time = std::nan("");
 };
 
-// One engine in one configuration. `build` makes what a user makes once per body and per case; `ask` is timed.
+// How a cell is asked. cold: every pair of bodies once. warm: many poses of one pair, call by call.
+// batch: the same in one call. coherent: poses along a trajectory, with what the engine remembers.
+enum class Mode { cold, warm, batch, coherent };
+
+// One engine in one configuration. `build` makes what a user makes once per body and per case;
+// `ask` and `ask_many` are timed, the rest is not.
 struct Engine {
   explicit Engine(std::string n) : name(std::move(n)) {}
   virtual ~Engine() = default;
   virtual bool answers(Question question) const { return question == Question::overlap; }
+  virtual bool stands(Mode mode) const { return mode != Mode::batch; }
+  virtual bool takes_meshes() const { return false; }  // closed and not convex
   virtual void build(const std::vector<Body>& bodies, const std::vector<Case>& cases) = 0;
+  virtual bool refuses(std::size_t) const { return false; }  // a case, once it is built
   virtual Verdict ask(std::size_t i) = 0;
+  virtual void ask_many(std::size_t, std::size_t, Verdict*) {}  // n cases from the first on
+  virtual void turn() {}                                        // before its turn in each round
+  virtual void forget() {}  // what it remembers, before each trajectory
 
-  const std::string name;  // as the method of the Python lane that asks the same
+  const std::string name;  // of the method of the Python lane that asks the same, if there is one
+  std::string isa = LANE_ISA, build_of = LANE_BUILD;
+  double length = 0;  // the unit of units.csv: radius that the smaller body gets; 0: as stated
+};
+
+// One that stands only where poses follow each other closely, as it remembers the last.
+struct Remembering : Engine {
+  using Engine::Engine;
+  bool stands(Mode mode) const override { return mode == Mode::coherent; }
+};
+
+// One that tests surfaces: each pair of bodies once, as it is far slower than hulls.
+struct Surfaces : Engine {
+  using Engine::Engine;
+  bool stands(Mode mode) const override { return mode == Mode::cold; }
+  bool takes_meshes() const override { return true; }
 };
 
 using Engines = std::vector<std::unique_ptr<Engine>>;

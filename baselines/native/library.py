@@ -12,8 +12,13 @@ from . import FOLDER
 
 #: name of an engine, as methods declare it -> (its plugin, the remedy where there is none)
 ENGINES = {
-    "libbullet": ("bullet_casts", "install its headers in doubles (Debian: apt-get install "
-                                  "libbullet-dev pkg-config) and build with: make native"),
+    "libbullet": (
+        "bullet_casts",
+        (
+            "install its headers in doubles (Debian: apt-get install libbullet-dev pkg-config) and"
+            " build with: ofg-bench native --build"
+        ),
+    ),
 }
 
 
@@ -33,7 +38,7 @@ def load(engine: str) -> ctypes.CDLL:
     try:
         return ctypes.CDLL(str(_path(engine)))
     except OSError as error:
-        reason = f"{engine} does not open ({error}); build it anew with: make native"
+        reason = f"{engine} does not open ({error}); build it anew with: ofg-bench native --build"
         raise MissingEngine(reason) from error
 
 

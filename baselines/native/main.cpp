@@ -1,154 +1,113 @@
-// lane CASES RESULTS WARMUP ROUNDS PLUGIN... : time every engine on every case.
+// lane CASES FOLDER MODES WARMUP ROUNDS PLUGIN... : time every engine on every case.
 //
-// Rounds, as in the Python lane: in each, every engine is asked all its cases one after the other, so that poses are cycled and each engine
-// finds its own code in the caches, after a call that is not timed; their order is shuffled anew each round. RESULTS is CSV: engine, case, hit, time, the build's nanoseconds
-// (of the engine, all cases), and the nanoseconds of each round.
+// MODES: names of lane::Mode with commas between them. In a round every contestant (an engine in a
+// mode) is asked all its cases, after calls that are not timed, so that poses are cycled and each
+// finds its own code in the caches; their order is shuffled anew each round, and one that takes
+// long for its turn takes part in three. What is timed together is a block of cases. FOLDER gets
+// three CSV files: contestants, answers and times.
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <iostream>
-#include <numeric>
-#include <random>
+#include <sstream>
 
-#include "lane.hpp"
+#include "rounds.hpp"
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using lane::fail;
 
-[[noreturn]] void fail(const std::string& what) {
-  std::cerr << "lane: " << what << "\n";
-  std::exit(2);
-}
-
-struct Reader {
-  std::ifstream in;
-  template <class T>
-  T one() {
-    T x;
-    many(&x, 1);
-    return x;
-  }
-  template <class T>
-  void many(T* to, std::size_t n) {
-    if (!in.read(reinterpret_cast<char*>(to), std::streamsize(n * sizeof(T)))) fail("the case file ends too early; write it anew.");
-  }
-};
-
-lane::Pose read_pose(Reader& r) {
-  lane::Pose pose;
-  r.many(pose.q.data(), 4);
-  r.many(pose.p.data(), 3);
-  const auto [w, x, y, z] = pose.q;
-  const double length = std::sqrt(w * w + x * x + y * y + z * z);
-  for (double& c : pose.q) c /= length;
-  return pose;
-}
-
-void read_cases(const char* path, std::vector<lane::Body>& bodies, std::vector<lane::Case>& cases) {
-  Reader r{std::ifstream(path, std::ios::binary)};
-  if (!r.in) fail(std::string("case file ") + path + " cannot be read.");
-  char magic[8];
-  r.many(magic, 8);
-  if (std::string(magic, 8) != "OFGLANE1") fail(std::string(path) + " is no case file of the native lane; baselines.native writes them.");
-  bodies.resize(r.one<std::uint32_t>());
-  cases.resize(r.one<std::uint32_t>());
-  for (auto& body : bodies) {
-    body.vertices.resize(3 * std::size_t(r.one<std::uint32_t>()));
-    body.faces.resize(3 * std::size_t(r.one<std::uint32_t>()));
-    r.many(body.vertices.data(), body.vertices.size());
-    r.many(body.faces.data(), body.faces.size());
-  }
-  for (auto& c : cases) {
-    c.a = r.one<std::uint32_t>(), c.b = r.one<std::uint32_t>();
-    c.question = lane::Question(r.one<std::uint32_t>());
-    if (c.a >= bodies.size() || c.b >= bodies.size()) fail("a case names a body that is not in the file; write it anew.");
-    c.pose_a = read_pose(r), c.pose_b = read_pose(r);
-    r.many(c.displacement.data(), 3);
-    r.many(c.axis.data(), 3);
-    c.angle = r.one<double>();
-    const auto [x, y, z] = c.axis;
-    if (const double length = std::sqrt(x * x + y * y + z * z); length > 0)
-      for (double& k : c.axis) k /= length;
-  }
-}
-
-// What a call through the interface and two looks at the clock cost: to be subtracted from every other engine.
+// What a call through the interface and two looks at the clock cost: to be subtracted from others.
 struct Floor final : lane::Engine {
-  Floor() : Engine("(floor)") {}
+  Floor() : Engine("(floor)") { isa = build_of = ""; }
   bool answers(lane::Question) const override { return true; }
+  bool stands(lane::Mode) const override { return true; }
+  bool takes_meshes() const override { return true; }
   void build(const std::vector<lane::Body>&, const std::vector<lane::Case>&) override {}
   lane::Verdict ask(std::size_t) override { return {false}; }
 };
 
-}  // namespace
+// The same arithmetic every time: how much its time varies is how much the machine was disturbed.
+struct Probe final : lane::Engine {
+  volatile double kept = 1;
+  Probe() : Engine("(noise probe)") { isa = build_of = ""; }
+  bool answers(lane::Question) const override { return true; }
+  bool takes_meshes() const override { return true; }
+  void build(const std::vector<lane::Body>&, const std::vector<lane::Case>&) override {}
+  lane::Verdict ask(std::size_t) override {
+    double x = kept;
+    for (int i = 0; i < 500; ++i) x = 0.999 * x + 1e-3;  // each waits for the one before
+    kept = x;
+    return {false};
+  }
+};
 
-int main(int argc, char** argv) {
-  if (argc < 5) fail("give CASES RESULTS WARMUP ROUNDS and the plugins.");
-  std::vector<lane::Body> bodies;
-  std::vector<lane::Case> cases;
-  read_cases(argv[1], bodies, cases);
-  const int warmup = std::atoi(argv[3]), rounds = std::atoi(argv[4]);
+const char* const names[] = {"cold", "warm", "batch", "coherent"};
 
+std::vector<lane::Mode> modes_of(const std::string& words) {
+  std::vector<lane::Mode> modes;
+  std::istringstream in(words);
+  for (std::string word; std::getline(in, word, ',');) {
+    const auto* found = std::find(std::begin(names), std::end(names), word);
+    if (found == std::end(names)) fail("there is no mode " + word + ".");
+    modes.push_back(lane::Mode(found - names));
+  }
+  return modes;
+}
+
+lane::Engines opened(int n, char** plugins) {
   lane::Engines engines;
   engines.push_back(std::make_unique<Floor>());
-  for (int i = 5; i < argc; ++i) {
-    void* plugin = dlopen(argv[i], RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
-    auto* make = plugin ? reinterpret_cast<decltype(&lane_engines)>(dlsym(plugin, "lane_engines")) : nullptr;
-    if (!make) fail(std::string("plugin ") + argv[i] + " does not open: " + dlerror());
-    make(engines);
+  engines.push_back(std::make_unique<Probe>());
+  for (int i = 0; i < n; ++i) {
+    void* plugin = dlopen(plugins[i], RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
+    void* made = plugin ? dlsym(plugin, "lane_engines") : nullptr;
+    if (!made) fail(std::string("plugin ") + plugins[i] + " does not open: " + dlerror());
+    reinterpret_cast<decltype(&lane_engines)>(made)(engines);
   }
+  return engines;
+}
 
-  struct Lane {
-    lane::Engine* engine;
-    std::vector<std::size_t> mine;  // cases it answers
-    long long build;
-    std::vector<lane::Verdict> verdicts;
-    std::vector<long long> times;  // round by round
-  };
-  std::vector<Lane> lanes;
-  for (auto& engine : engines) {
-    Lane one{engine.get(), {}, 0, {}, {}};
-    for (std::size_t i = 0; i < cases.size(); ++i)
-      if (engine->answers(cases[i].question)) one.mine.push_back(i);
-    const auto start = Clock::now();
-    engine->build(bodies, cases);
-    one.build = std::chrono::nanoseconds(Clock::now() - start).count();
-    one.verdicts.resize(one.mine.size());
-    one.times.reserve(one.mine.size() * rounds);
-    lanes.push_back(std::move(one));
-  }
-  std::vector<std::size_t> order(lanes.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::mt19937 random(0);
-  for (int round = 0; round < warmup + rounds; ++round) {
-    std::shuffle(order.begin(), order.end(), random);
-    for (const std::size_t turn : order) {
-      Lane& lane = lanes[turn];
-      if (!lane.mine.empty()) lane.engine->ask(lane.mine.back());
-      for (std::size_t i = 0; i < lane.mine.size(); ++i) {
-        const auto start = Clock::now();
-        const lane::Verdict verdict = lane.engine->ask(lane.mine[i]);
-        const auto end = Clock::now();
-        lane.verdicts[i] = verdict;
-        if (round >= warmup) lane.times.push_back(std::chrono::nanoseconds(end - start).count());
+std::FILE* csv(const std::string& folder, const char* name) {
+  std::FILE* out = std::fopen((folder + "/" + name + ".csv").c_str(), "w");
+  if (!out) fail(folder + "/" + name + ".csv cannot be written.");
+  return out;
+}
+
+void write(const std::string& folder, const std::vector<lane::Contestant>& all, std::size_t block,
+           int rounds) {
+  std::FILE *who = csv(folder, "contestants"), *said = csv(folder, "answers"),
+            *took = csv(folder, "times");
+  std::fprintf(who, "id,engine,isa,build,mode,build_ns\n");
+  std::fprintf(said, "id,case,hit,time\n");
+  std::fprintf(took, "id,block,queries");
+  for (int r = 0; r < rounds; ++r) std::fprintf(took, ",round%d", r);
+  for (std::size_t id = 0; id < all.size(); ++id) {
+    const lane::Contestant& c = all[id];
+    std::fprintf(who, "%zu,\"%s\",%s,\"%s\",%s,%lld\n", id, c.engine->name.c_str(),
+                 c.engine->isa.c_str(), c.engine->build_of.c_str(), names[int(c.mode)], c.build);
+    for (std::size_t i = 0; i < c.verdicts.size(); ++i)
+      std::fprintf(said, "%zu,%zu,%d,%.17g\n", id, c.blocks[i / block] + i % block,
+                   int(c.verdicts[i].hit), c.verdicts[i].time);
+    for (std::size_t i = 0; i < c.blocks.size(); ++i) {
+      std::fprintf(took, "\n%zu,%zu,%zu", id, c.blocks[i], block);
+      for (int r = 0; r < rounds; ++r) {
+        const long long ns = c.times[std::size_t(r) * c.blocks.size() + i];
+        ns < 0 ? std::fprintf(took, ",") : std::fprintf(took, ",%lld", ns);
       }
     }
   }
+  std::fprintf(took, "\n");
+  for (std::FILE* file : {who, said, took}) std::fclose(file);
+}
 
-  std::FILE* out = std::fopen(argv[2], "w");
-  if (!out) fail(std::string("results file ") + argv[2] + " cannot be written.");
-  std::fprintf(out, "engine,case,hit,time,build");
-  for (int r = 0; r < rounds; ++r) std::fprintf(out, ",round%d", r);
-  for (const Lane& lane : lanes)
-    for (std::size_t i = 0; i < lane.mine.size(); ++i) {
-      std::fprintf(out, "\n%s,%zu,%d,%.17g,%lld", lane.engine->name.c_str(), lane.mine[i], int(lane.verdicts[i].hit), lane.verdicts[i].time, lane.build);
-      for (int r = 0; r < rounds; ++r) std::fprintf(out, ",%lld", lane.times[r * lane.mine.size() + i]);
-    }
-  std::fprintf(out, "\n");
-  std::fclose(out);
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 6) fail("give CASES FOLDER MODES WARMUP ROUNDS and the plugins.");
+  const lane::CaseFile file = lane::read_case_file(argv[1]);
+  const int warmup = std::atoi(argv[4]), rounds = std::atoi(argv[5]);
+  const lane::Engines engines = opened(argc - 6, argv + 6);
+  std::vector<lane::Contestant> all = lane::contestants_of(engines, file, modes_of(argv[3]));
+  lane::take_rounds(all, file.block, warmup, rounds);
+  write(argv[2], all, file.block, rounds);
 }

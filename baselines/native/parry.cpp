@@ -1,58 +1,109 @@
 // parry in doubles, through the C interface of the crate beside this file.
-#include <cstdio>
-#include <cstdlib>
+#include <cstddef>
 
 #include "lane.hpp"
 
 extern "C" {
 struct ParryShape;
+struct ParryManifolds;
 ParryShape* parry_hull(const double* vertices, std::size_t n);
-ParryShape* parry_mesh(const double* vertices, std::size_t n, const std::uint32_t* faces, std::size_t m);
+ParryShape* parry_mesh(const double* vertices, std::size_t n, const std::uint32_t* faces,
+                       std::size_t m);
 void parry_free(ParryShape*);
-bool parry_overlap(const ParryShape* a, const lane::Pose* at, const ParryShape* b, const lane::Pose* bt);
-double parry_cast(const ParryShape* a, const lane::Pose* at, const double* d, const ParryShape* b, const lane::Pose* bt);
-double parry_cast_nonlinear(const ParryShape* a, const lane::Pose* at, const double* d, const double* turn, const ParryShape* b, const lane::Pose* bt);
+bool parry_overlap(const ParryShape* a, const lane::Pose* at, const ParryShape* b,
+                   const lane::Pose* bt);
+double parry_cast(const ParryShape* a, const lane::Pose* at, const double* d, const ParryShape* b,
+                  const lane::Pose* bt);
+double parry_cast_nonlinear(const ParryShape* a, const lane::Pose* at, const double* d,
+                            const double* turn, const ParryShape* b, const lane::Pose* bt);
+ParryManifolds* parry_manifolds();
+void parry_manifolds_free(ParryManifolds*);
+bool parry_manifolds_overlap(ParryManifolds*, const ParryShape* a, const lane::Pose* at,
+                             const ParryShape* b, const lane::Pose* bt);
 }
 
 namespace {
 
-struct Parry final : lane::Engine {
-  const bool cast, mesh;
+template <class Base>
+struct Shapes : Base {
+  const bool mesh;
   std::vector<ParryShape*> shapes;
   std::vector<lane::Case> cases;
-  std::vector<std::array<double, 3>> turns;
 
-  Parry(const char* name, bool c, bool m) : Engine(name), cast(c), mesh(m) {}
-  ~Parry() override {
-    for (auto* shape : shapes) parry_free(shape);
+  Shapes(const char* name, bool m) : Base(name), mesh(m) {}
+  ~Shapes() override {
+    for (auto* shape : shapes)
+      if (shape) parry_free(shape);
   }
-  bool answers(lane::Question question) const override { return cast == (question != lane::Question::overlap); }
 
   void build(const std::vector<lane::Body>& bodies, const std::vector<lane::Case>& asked) override {
     for (const auto& body : bodies) {
       const auto* faces = reinterpret_cast<const std::uint32_t*>(body.faces.data());
-      shapes.push_back(mesh ? parry_mesh(body.vertices.data(), body.n(), faces, body.m()) : parry_hull(body.vertices.data(), body.n()));
-      if (!shapes.back()) std::fprintf(stderr, "lane: parry makes no shape of a body\n"), std::exit(2);
+      shapes.push_back(mesh ? parry_mesh(body.vertices.data(), body.n(), faces, body.m())
+                            : parry_hull(body.vertices.data(), body.n()));
     }
     cases = asked;
-    for (const auto& c : cases) turns.push_back({c.angle * c.axis[0], c.angle * c.axis[1], c.angle * c.axis[2]});
+  }
+
+  // Of some points parry makes no hull.
+  bool refuses(std::size_t i) const override { return !a(i) || !b(i); }
+
+  ParryShape* a(std::size_t i) const { return shapes[cases[i].a]; }
+  ParryShape* b(std::size_t i) const { return shapes[cases[i].b]; }
+
+  lane::Verdict ask(std::size_t i) override {
+    return {parry_overlap(a(i), &cases[i].pose_a, b(i), &cases[i].pose_b)};
+  }
+};
+
+struct Cast final : Shapes<lane::Engine> {
+  std::vector<std::array<double, 3>> turns;
+
+  Cast() : Shapes("parry-cast", false) {}
+  bool answers(lane::Question question) const override {
+    return question != lane::Question::overlap;
+  }
+
+  void build(const std::vector<lane::Body>& bodies, const std::vector<lane::Case>& asked) override {
+    Shapes::build(bodies, asked);
+    for (const auto& c : cases)
+      turns.push_back({c.angle * c.axis[0], c.angle * c.axis[1], c.angle * c.axis[2]});
   }
 
   lane::Verdict ask(std::size_t i) override {
     const lane::Case& c = cases[i];
-    const auto *a = shapes[c.a], *b = shapes[c.b];
-    if (c.question == lane::Question::overlap) return {parry_overlap(a, &c.pose_a, b, &c.pose_b)};
     const double time = c.question == lane::Question::translation
-                            ? parry_cast(a, &c.pose_a, c.displacement.data(), b, &c.pose_b)
-                            : parry_cast_nonlinear(a, &c.pose_a, c.displacement.data(), turns[i].data(), b, &c.pose_b);
+                            ? parry_cast(a(i), &c.pose_a, c.displacement.data(), b(i), &c.pose_b)
+                            : parry_cast_nonlinear(a(i), &c.pose_a, c.displacement.data(),
+                                                   turns[i].data(), b(i), &c.pose_b);
     return {time >= 0, time >= 0 ? time : std::nan("")};
+  }
+};
+
+// What its narrow phase does with a pair that stays near: manifolds that start from the last ones.
+struct Kept final : Shapes<lane::Remembering> {
+  ParryManifolds* manifolds = parry_manifolds();
+
+  explicit Kept(const char* name) : Shapes(name, false) {}
+  ~Kept() override { parry_manifolds_free(manifolds); }
+
+  void forget() override {
+    parry_manifolds_free(manifolds);
+    manifolds = parry_manifolds();
+  }
+
+  lane::Verdict ask(std::size_t i) override {
+    return {parry_manifolds_overlap(manifolds, a(i), &cases[i].pose_a, b(i), &cases[i].pose_b)};
   }
 };
 
 }  // namespace
 
 extern "C" void lane_engines(lane::Engines& engines) {
-  engines.push_back(std::make_unique<Parry>("parry", false, false));
-  engines.push_back(std::make_unique<Parry>("parry-mesh", false, true));
-  engines.push_back(std::make_unique<Parry>("parry-cast", true, false));
+  engines.push_back(std::make_unique<Shapes<lane::Engine>>("parry", false));
+  engines.push_back(std::make_unique<Shapes<lane::Engine>>("parry-exact", false));
+  engines.push_back(std::make_unique<Shapes<lane::Surfaces>>("parry-mesh", true));
+  engines.push_back(std::make_unique<Cast>());
+  engines.push_back(std::make_unique<Kept>("parry, kept manifold"));
+  engines.push_back(std::make_unique<Kept>("parry-exact, kept manifold"));
 }

@@ -1,2 +1,3 @@
-"""Cases: what is asked. Scenario families draw two bodies, their poses and a motion, aimed at a
-difficulty."""
+"""Cases: the queries of the benchmark. Scenario families draw two bodies, their poses and a
+motion, aimed at one difficulty.
+"""

@@ -1,4 +1,4 @@
-"""A case: a query with the scenario it came from."""
+"""A case: a query and the scenario from which it was drawn."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from ofg import Query
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """id: "thin_wall/100/0007": scenario, level of difficulty, index. level: the value on the
-    scenario's difficulty axis. tags: what else a table may be split by ({"feature": "edge-edge"});
-    strings or numbers. precision: "float32" where the scenario declares that every number is a
-    float32 number, else "float64".
+    """A query with its origin.
+
+    id: "thin_wall/100/0007": scenario, level of difficulty, index. level: the value on the
+    scenario's difficulty axis. tags: further keys by which a table may be split ({"feature":
+    "edge-edge"}); strings or numbers. precision: "float32" if the scenario declares that every
+    number is a float32 number, else "float64".
     """
 
     id: str

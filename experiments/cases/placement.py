@@ -1,10 +1,9 @@
-"""How scenarios put bodies where a wanted gap, feature or time comes out, exactly where that is
-possible in float32.
+"""Placement of bodies with a given gap, feature or time of contact, exact wherever float32 permits.
 
-The trick for gaps of 1e-16: both bodies have the contact point at their own frame's origin
-(`rest_on`), both rotations are integer quaternions with a common part, and what is tiny goes into
-one body's position while what is large goes into the other's. Then nothing is added, and nothing is
-rounded but the tiny number itself.
+Gaps of 1e-16 are made as follows: both bodies have the contact point at their own frame's origin
+(`rest_on`), both rotations are integer quaternions with a common part, and the tiny length goes
+into one body's position and the large one into the other's. Nothing is then added, and only the
+tiny number itself is rounded.
 """
 
 from __future__ import annotations
@@ -32,9 +31,7 @@ FEATURE_PAIRS = (
     "edge-face",
     "face-face",
 )
-ALIGNED_SHARE = (
-    0.25  # of the cases keep the axes of the world: symmetric input is where engines fail
-)
+ALIGNED_SHARE = 0.25  # of the cases keep the axes of the world: engines fail on symmetric input
 
 GROUND = 1e-6  # of the size: vertices nearer than this to a face's plane belong to the face
 
@@ -66,9 +63,7 @@ def any_rotation(rng) -> np.ndarray:
 
 
 def common_rotation(rng) -> tuple[np.ndarray, str]:
-    """An integer quaternion for both bodies, and the tag "aligned": "yes" where it is the
-    identity.
-    """
+    """An integer quaternion for both bodies, and the tag "aligned": "yes" if it is the identity."""
     if rng.random() < ALIGNED_SHARE:
         return IDENTITY, "yes"
     return rng.choice([-1, 1], 4) * rng.integers(1, 16, 4), "no"
@@ -81,11 +76,11 @@ def any_direction(rng) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Seat:
-    """A above B with one feature of each at the common point 0, the plane between them at `normal`,
-    which points to A.
+    """A above B with one feature of each at the common point 0, the plane between them
+    perpendicular to `normal`, which points to A.
 
     matrix: integer (3, 3); its columns, divided by `unit`, are two exact directions in the plane
-    and the normal. offset: (3,) where in the world the contact may lie, if the case can bear the
+    and the normal. offset: (3,) where in the world the contact may lie, if the case tolerates the
     rounding.
     """
 
@@ -100,7 +95,7 @@ class Seat:
 
     @property
     def size(self) -> float:
-        """The smaller body's: what gaps are relative to."""
+        """The size of the smaller body, to which gaps are relative."""
         return min(self.a.size, self.b.size)
 
     @property
@@ -108,15 +103,15 @@ class Seat:
         return self.matrix[:, 2] / self.unit
 
     def exact(self, x: int, y: int, z: int, length: float) -> np.ndarray:
-        """About `length` in the direction of the integers (x, y, z) of the plane's axes, each
+        """About `length` in the direction of the integers (x, y, z) in the plane's axes, each
         component exact in float32.
         """
         v = self.matrix @ [x, y, z]
         return v * 2.0 ** np.round(np.log2(length / np.linalg.norm(v)))
 
     def apart(self, gap: float) -> Draft:
-        """At rest, `gap` (length) apart along the normal; negative: that deep in each other. Tag
-        "aim" holds it.
+        """At rest, `gap` (length) apart along the normal; negative: penetrating by that depth.
+        The tag "aim" contains it.
         """
         self.tags["aim"] = float(gap)
         return self.draft(gap * self.normal, [0, 0, 0], finest=gap)
@@ -124,9 +119,9 @@ class Seat:
     def draft(
         self, position_a, position_b, motion: Motion = Motion(), finest: float = 0.0
     ) -> Draft:
-        """Both positions relative to the contact. It is moved to `offset` where rounding the
-        positions there to float32 changes the `finest` length that matters by less than a
-        thousandth; else it stays at the world's origin.
+        """Both positions relative to the contact. It is moved to `offset` if rounding the
+        positions there to float32 changes the `finest` relevant length by less than a
+        thousandth; otherwise it stays at the world's origin.
         """
         if 1e-3 * abs(finest) > 2.0**-24 * np.abs(self.offset).max():
             position_a, position_b = position_a + self.offset, position_b + self.offset
@@ -153,7 +148,7 @@ def seat(rng, body_a: Body, body_b: Body, pair: str | None = None) -> Seat:
         for body, feature in zip((body_a, body_b), features)
     )
     common, aligned = common_rotation(rng)
-    if aligned == "yes":  # boxes stay boxes of the world: a quarter turn at most
+    if aligned == "yes":  # boxes stay aligned with the world: a quarter turn at most
         spin = QUARTER_TURN if "crossing" in pair or rng.random() < 0.5 else IDENTITY
     else:
         spin = np.array([rng.integers(1, 8), 0, 0, rng.integers(1, 8)])
@@ -174,15 +169,15 @@ def seat(rng, body_a: Body, body_b: Body, pair: str | None = None) -> Seat:
 
 @cache
 def rest_on(body: Body, feature: str, variant: int) -> Body:
-    """The convex body moved so that it stands in z >= 0 on one feature of its own, with the frame's
+    """The convex body moved so that it stands in z >= 0 on one of its features, with the frame's
     origin in that feature.
 
-    feature: "vertex" (at 0), "edge" (along x through 0) or "face" (in z = 0, around 0); which one
-    is drawn by `variant`. Standing is exact: the feature's vertices have the coordinates 0 that it
-    takes, and all other vertices have z > 0.
+    feature: "vertex" (at 0), "edge" (along x through 0) or "face" (in z = 0, around 0); `variant`
+    selects which one. The placement is exact: the feature's vertices have the required zero
+    coordinates, and all other vertices have z > 0.
     """
     rng = np.random.default_rng([variant, len(body.vertices)])
-    # trimesh takes the triangles of a body of 1e-6 for degenerate
+    # trimesh considers the triangles of a body of 1e-6 degenerate
     unit = 2.0 ** np.round(np.log2(body.size))
     mesh = trimesh.Trimesh(body.vertices / unit, body.faces, process=False)
     for _ in range(100):
@@ -199,14 +194,14 @@ def rest_on(body: Body, feature: str, variant: int) -> Body:
         if np.delete(v, members, axis=0)[:, 2].min() > GROUND * unit:
             return hull_of(v, f"{body.name} on {feature} {variant}")
     raise ValueError(
-        f"Body '{body.name}' found no {feature} that it can stand on clear of its other vertices in"
-        " 100 tries; give the scenario a body with blunter features."
+        f"Body '{body.name}': found no {feature} on which it can stand clear of its other "
+        "vertices in 100 tries; give the scenario a body with blunter features."
     )
 
 
 def _feature(mesh: trimesh.Trimesh, feature: str, rng):
-    """Outward normal, a direction across it, the contact point and the vertices of a feature drawn
-    from the body's own.
+    """Outward normal, a direction across it, the contact point and the vertices of a random
+    feature of the body.
     """
     if feature == "face":
         face = rng.choice(len(mesh.faces), p=mesh.area_faces / mesh.area_faces.sum())
@@ -247,17 +242,20 @@ def _feature(mesh: trimesh.Trimesh, feature: str, rng):
 
 
 def surface_point(rng, body: Body) -> tuple[np.ndarray, np.ndarray]:
-    """A point on the surface (in the body's frame, evenly by area) and the outward normal there."""
+    """A point on the surface (in the body's frame, uniform by area) and the outward normal
+    there.
+    """
     mesh = body.to_trimesh()
     face = rng.choice(len(mesh.faces), p=mesh.area_faces / mesh.area_faces.sum())
     return rng.dirichlet(np.ones(3)) @ mesh.triangles[face], mesh.face_normals[face]
 
 
 def touching(rng, a: Body, b: Body, gap: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Rotation and position of A, and the normal, with which A's extreme vertex stands `gap` above
-    a point of B's surface.
+    """Rotation and position of A, and the normal, such that A's extreme vertex is `gap` above a
+    point of B's surface.
 
-    B is at the identity. Any kind of body. Of a concave B, A may still meet some other part.
+    B is at the identity. Any kind of body. If B is concave, A may still intersect another part of
+    it.
     """
     point, normal = surface_point(rng, b)
     rotation = snap(any_rotation(rng))
@@ -266,8 +264,8 @@ def touching(rng, a: Body, b: Body, gap: float) -> tuple[np.ndarray, np.ndarray,
 
 
 def in_world(rng, draft: Draft, offset: float = 1.0) -> Draft:
-    """The same in a common random rotation and offset; a quarter of the cases keep the world's axes
-    (tag "aligned").
+    """The same in a common random rotation and offset; a quarter of the cases keep the world's
+    axes (tag "aligned").
     """
     q, aligned = common_rotation(rng)
     r = norm_matrix(q) / (q @ q)
@@ -287,8 +285,8 @@ def in_world(rng, draft: Draft, offset: float = 1.0) -> Draft:
 
 
 def flight_through(rng, level: float) -> Draft:
-    """A body flies along -z through a wall, or past its rim, from clear to clear; level = travel /
-    thickness of the wall.
+    """A body flies along -z through a wall, or past its rim, from clear to clear; level = travel
+    / thickness of the wall.
     """
     half_width = 2.0
     a = any_convex(rng)
@@ -314,8 +312,8 @@ def flight_through(rng, level: float) -> Draft:
 
 
 def spin_beside(rng, turn: float, angle: float, width: float) -> Draft:
-    """A rod turns about z and its own centre by `turn`; a body of radius `width` stands at the
-    angle `angle`, near enough to be hit by the rod's end or just too far.
+    """A rod rotates about z and its own centre by `turn`; a body of radius `width` stands at the
+    angle `angle`, near enough to be hit by the rod's end or just out of reach.
     """
     hit = rng.random() < 0.65
     reach = rng.uniform(0.6, 0.9) if hit else rng.uniform(1.01, 1.2)

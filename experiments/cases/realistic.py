@@ -1,6 +1,4 @@
-"""Real meshes: which of them a family draws and in which form, and how they are thrown at one
-another.
-"""
+"""Real meshes: which of them a family draws and in which form, and how they move at one another."""
 
 import numpy as np
 
@@ -12,14 +10,14 @@ from .shapes import CONVEX_MESHES, real_concave, real_convex, real_pieces
 
 CONVEX = tuple(CONVEX_MESHES)
 SURFACES = ("cone", "lower_leg", "shin", "knuckle", "shape_sorter", "guide", "bunny")
-# What CoACD cuts within about 3 s in all; the others come in pieces.
+# CoACD decomposes these within about 3 s in total; the others are supplied in pieces.
 DECOMPOSED = ("cone", "lower_leg", "shin", "knuckle")
 PIECES = ("tray", "xarm_link4", "duck_pieces", "upper_leg", "teddy")
 
 
 def any_pair(rng) -> tuple[Body, Body, str]:
-    """Two bodies and the kind of pair: both convex, a closed surface with a convex body or another,
-    or unions of pieces.
+    """Two bodies and the kind of pair: both convex, a closed surface with a convex body or
+    another, or unions of pieces.
     """
     kind = ("convex", "surface", "union")[rng.integers(3)]
     if kind == "convex":
@@ -32,7 +30,7 @@ def throw(rng, speed: float, turn: float = 0.0) -> Draft:
     """One real mesh flies at a point of another's surface from outside its sphere: onto it, just
     short of it, or past it.
 
-    speed: travel / size of the body it is thrown at. turn: about an axis of any direction, radians.
+    speed: travel / size of the target body. turn: about an axis of random direction, radians.
     """
     a, b, kind = any_pair(rng)
     rotation, target, normal = touching(rng, a, b, 0.0)

@@ -14,19 +14,17 @@ from .case import Case
 from .label import Truth
 
 PRECISIONS = ("float32", "float64")
-USELESS = ("start-overlap", "hit", "clear", "uncertain", "touching")  #: what redraw_if may name
+USELESS = ("start-overlap", "hit", "clear", "uncertain", "touching")  #: allowed values of redraw_if
 
 
 class ScenarioError(ValueError):
-    """A scenario that draws what is no case. The message names the scenario, the level and the
-    draw.
-    """
+    """A scenario drew an invalid case. The message names the scenario, the level and the draw."""
 
 
 @dataclass(frozen=True)
 class Draft:
-    """What a scenario's `generate` returns: two bodies, two poses, A's motion, tags to split tables
-    by, and B's motion.
+    """The output of a scenario's `generate`: two bodies, two poses, A's motion, tags by which to
+    split tables, and B's motion.
     """
 
     a: Body
@@ -40,18 +38,18 @@ class Draft:
 
 @dataclass(frozen=True)
 class Scenario:
-    """One file in `experiments/cases/families/` holds one of these, named SCENARIO.
+    """Each file in `experiments/cases/families/` contains one scenario, named SCENARIO.
 
-    name: as in the tables. question: what its cases ask. exposes: one line, what it tells methods
-    apart by. axis: what the difficulty is, with its unit. levels: the values it takes, easy to
-    hard. generate(rng, level) -> Draft: aims at the difficulty; the label comes from the
-    certificate and never from the aim. precision: "float64": a case is what `generate` drew, number
-    for number; engines that compute or hold bodies in single precision are asked about bodies that
-    they cannot hold, and the tables mark them. "float32": poses, motions and vertices are rounded
-    to float32 first, so that all engines are asked the same. redraw_if: what makes a case useless,
-    so that it is drawn again (at most 50 times, and counted): any of "start-overlap" (a sweep that
-    begins inside), "hit", "clear", "uncertain", "touching" (clear, but the surfaces share a point).
-    Raises ValueError for another precision, or another word in redraw_if.
+    name: as in the tables. question: of its queries. exposes: one line, the weakness that it
+    reveals. axis: the measure of difficulty, with its unit. levels: its values, easy to hard.
+    generate(rng, level) -> Draft: aims at the difficulty; the label comes from the certificate and
+    never from the aim. precision: "float64": a case is what `generate` drew, number for number;
+    engines in single precision then get bodies that they cannot represent, and the tables mark
+    them. "float32": poses, motions and vertices are first rounded to float32, so that all engines
+    get the same query. redraw_if: conditions under which a case is rejected and drawn again (at
+    most 50 times; the rejected draws are counted): any of "start-overlap" (a sweep that begins in
+    overlap), "hit", "clear", "uncertain", "touching" (clear, but the surfaces share a point).
+    Raises ValueError for another precision, or another string in redraw_if.
     """
 
     name: str
@@ -72,14 +70,14 @@ class Scenario:
         wrong = sorted(set(self.redraw_if) - set(USELESS))
         if wrong:
             raise ValueError(
-                f"Scenario '{self.name}' is drawn again if {', '.join(wrong)}; "
-                f"redraw_if takes {', '.join(USELESS)}."
+                f"Scenario '{self.name}' has redraw_if with {', '.join(wrong)}; redraw_if accepts "
+                f"{', '.join(USELESS)}."
             )
 
     def case(self, seed: int, level: float, index: int, attempt: int = 0) -> Case:
-        """The same case for the same arguments, whatever was made before it.
+        """The case for these arguments, independent of what was drawn before it.
 
-        ScenarioError where it is none.
+        ScenarioError if it is invalid.
         """
         self.check_level(level)
         key = [seed, zlib.crc32(self.name.encode()), list(self.levels).index(level), index, attempt]
@@ -94,8 +92,8 @@ class Scenario:
             query = snap_query(query) if self.precision == "float32" else query
         except (ValueError, TypeError) as error:
             raise ScenarioError(
-                f"Scenario '{self.name}' drew no case at level {level:g}, index {index}, seed"
-                f" {seed}: {error}"
+                f"Scenario '{self.name}' drew no valid case at level {level:g}, index {index}, "
+                f"seed {seed}: {error}"
             ) from error
         name = f"{self.name}/{level:g}/{index:04d}"
         return Case(name, self.name, float(level), index, query, dict(d.tags or {}), self.precision)
@@ -103,8 +101,8 @@ class Scenario:
     def check_level(self, level: float) -> None:
         if level not in self.levels:
             raise ValueError(
-                f"Scenario '{self.name}' has no level {level:g}. Its axis is {self.axis}; it takes"
-                f" {', '.join(f'{v:g}' for v in self.levels)}."
+                f"Scenario '{self.name}' has no level {level:g}. Its axis is {self.axis}; its "
+                f"levels are {', '.join(f'{v:g}' for v in self.levels)}."
             )
 
     def useless(self, truth: Truth) -> bool:
@@ -115,9 +113,9 @@ class Scenario:
 
 
 def snap(values) -> np.ndarray:
-    """Nearest float32 as float64: float and double engines then answer the same question.
+    """Nearest float32 as float64: float and double engines then answer the same query.
 
-    What is too large becomes infinite.
+    Too large values become infinite.
     """
     with np.errstate(over="ignore"):
         return np.float32(values).astype(np.float64)
@@ -126,7 +124,7 @@ def snap(values) -> np.ndarray:
 def snap_query(query: Query) -> Query:
     """Every number of a query snapped.
 
-    ValueError where a body is none any more, or a number is too large.
+    ValueError if a body becomes invalid, or a number is too large.
     """
     sides = [
         snap_body(query.a),
@@ -138,10 +136,9 @@ def snap_query(query: Query) -> Query:
 
 
 def snap_body(body: Body) -> Body:
-    """The body with vertices snapped, made anew and checked where one changes; else the body
-    itself.
+    """The body with vertices snapped, made again and checked if one changes; else the body itself.
 
-    ValueError where it is no body any more.
+    ValueError if it becomes invalid.
     """
     vertices = snap(body.vertices)
     if np.array_equal(vertices, body.vertices):
@@ -154,7 +151,7 @@ def snap_body(body: Body) -> Body:
         return Body.convex(vertices, body.name)
     except BodyError as error:
         raise ValueError(
-            f"rounded to float32, a body is none any more. {error} Draw it larger beside its "
+            f"rounded to float32, a body becomes invalid. {error} Draw it larger relative to its "
             'distance from its frame\'s origin, or declare precision = "float64".'
         ) from error
 

@@ -1,9 +1,8 @@
-"""The bodies that scenarios use: generated ones of radius about 1, and real meshes out of the
-installed pybullet_data.
+"""The bodies of the scenarios: generated ones of radius about 1, and real meshes from the installed
+pybullet_data.
 
 Every vertex is a float32 number, so that float and double engines get the same body. Bodies are
-cached: asking twice for the same one returns the same object, and engines may keep what they built
-for it.
+cached: equal calls return the same object, so engines may reuse what they built for it.
 """
 
 from __future__ import annotations
@@ -18,8 +17,8 @@ from ofg import Body, decompose
 
 from .scenario import snap
 
-# What each is: a file under pybullet_data. Face counts in brackets. Convex to within rounding:
-# taken as their hulls.
+# Each mesh is a file under pybullet_data. Face counts in comments. Convex to within rounding:
+# replaced by their hulls.
 CONVEX_MESHES = {
     "prism": "toys/prism.obj",  # 12
     "finger": "franka_panda/meshes/collision/finger.obj",  # 32
@@ -48,8 +47,7 @@ LARGE_MESHES = {
     "duck": "duck.obj",  # 4212
     "channel": "quadruped/microtaur/channel_4inch.stl",  # 5638
 }
-# Meshes that their authors already cut into convex pieces: the pieces are the body, no CoACD
-# needed.
+# Meshes supplied by their authors in convex pieces: the pieces are the body, without CoACD.
 PIECEWISE_MESHES = {
     "tray": "tray/tray_textured4.obj",  # 6 pieces
     "xarm_link4": "xarm/xarm_description/meshes/xarm6/collision/link4_vhacd.obj",  # 5
@@ -64,10 +62,10 @@ def hull_of(points, name: str) -> Body:
     return Body.convex(snap(points), name)
 
 
-@lru_cache(512)  # some families ask for walls of any thickness
+@lru_cache(512)  # some families use walls of arbitrary thickness
 def box(x: float = 1.0, y: float = 1.0, z: float = 1.0) -> Body:
-    """Edge lengths; a cube by default. Keep them multiples of a power of two where a gap must come
-    out exactly.
+    """A box with these edge lengths; a cube by default. Use multiples of a power of two if a gap
+    must be exact.
     """
     corners = np.array(np.meshgrid([-0.5, 0.5], [-0.5, 0.5], [-0.5, 0.5])).reshape(3, -1).T
     return hull_of(corners * [x, y, z], f"box {x:g} x {y:g} x {z:g}")
@@ -92,7 +90,7 @@ def icosphere(subdivisions: int = 1, radius: float = 1.0) -> Body:
 
 @cache
 def hull(faces: int, seed: int) -> Body:
-    """A random hull: points on an ellipsoid with axes between 0.4 and 1, as many as make `faces`
+    """A random hull: points on an ellipsoid with axes between 0.4 and 1, as many as give `faces`
     triangles (even, >= 4).
     """
     rng = np.random.default_rng([seed, faces])
@@ -103,7 +101,7 @@ def hull(faces: int, seed: int) -> Body:
 
 @cache
 def rod(aspect: float, sections: int = 8, length: float = 2.0) -> Body:
-    """A prism along x with a regular polygon across; aspect = length / thickness. A needle when the
+    """A prism along x over a regular polygon; aspect = length / thickness. A needle if the
     aspect is large.
     """
     turn = 2 * np.pi * np.arange(sections) / sections
@@ -114,7 +112,7 @@ def rod(aspect: float, sections: int = 8, length: float = 2.0) -> Body:
 
 
 def plate(aspect: float, width: float = 2.0) -> Body:
-    """A square plate across z; aspect = width / thickness."""
+    """A square plate perpendicular to z; aspect = width / thickness."""
     return box(width, width, width / aspect)
 
 
@@ -126,8 +124,8 @@ def torus(
     around: int = 8,
     form: str = "mesh",
 ) -> Body:
-    """About z. The hole has the radius `radius - tube`. form "mesh", or "union": the same solid in
-    `sections` convex pieces.
+    """A torus about z. The hole has the radius `radius - tube`. form "mesh", or "union": the
+    same solid in `sections` convex pieces.
     """
     turn = 2 * np.pi * (np.arange(around) + 0.5) / around
     profile = np.stack([radius + tube * np.cos(turn), tube * np.sin(turn)], axis=1)
@@ -138,8 +136,8 @@ def torus(
 def frame(
     hole: float, outer: float = 1.0, thickness: float = 0.25, sections: int = 4, form: str = "mesh"
 ) -> Body:
-    """A flat ring about z with a regular polygon for a hole, whose inscribed radius is `hole`;
-    `outer` its outer one.
+    """A flat ring about z whose hole is a regular polygon of inscribed radius `hole`; `outer` is
+    its outer radius.
     """
     to_corner = 1 / np.cos(np.pi / sections)
     corners = [(hole, -1), (outer, -1), (outer, 1), (hole, 1)]
@@ -149,20 +147,20 @@ def frame(
 
 @cache
 def hook(arm: float = 1.0, width: float = 0.25, form: str = "mesh") -> Body:
-    """An L in the plane z = 0: two arms of length `arm` along x and y from the corner, both `width`
-    wide and thick. The frame's origin is the inner corner.
+    """An L in the plane z = 0: two arms of length `arm` along x and y from the corner, both
+    `width` wide and thick. The frame's origin is the inner corner.
     """
     far = arm - width
     outline = np.array([(0, 0), (0, far), (-width, far), (-width, -width), (far, -width), (far, 0)])
     if form == "union":
-        # Both arms hold the corner: pieces that merely shared a face would leave a seam where
-        # nothing is in an interior.
+        # Both arms contain the corner: pieces that merely shared a face would leave a seam outside
+        # both interiors.
         upright = _slab(-width, 0, -width, far, width)
         foot = _slab(-width, far, -width, 0, width)
         return Body.union([upright, foot], "hook union")
     n = len(outline)
     low, high = (np.column_stack([outline, np.full(n, z)]) for z in (-width / 2, width / 2))
-    # a fan from the inner corner sees the whole L
+    # a fan from the inner corner covers the whole L
     cap = np.array([(0, i, i + 1) for i in range(1, n - 1)])
     sides = [(i, j, j + n) for i, j in _ring(n)] + [(i, j + n, i + n) for i, j in _ring(n)]
     return Body.mesh(
@@ -190,8 +188,8 @@ def real_concave(name: str, form: str = "mesh") -> Body:
 
 @cache
 def real_pieces(name: str) -> Body:
-    """One of PIECEWISE_MESHES as a union of the pieces its authors made, vertices' mean at the
-    origin, radius 1.
+    """One of PIECEWISE_MESHES as the union of its authors' pieces, vertices' mean at the origin,
+    radius 1.
     """
     mesh = _load(PIECEWISE_MESHES[name])
     label = trimesh.graph.connected_component_labels(
@@ -206,8 +204,8 @@ def real_pieces(name: str) -> Body:
 
 @cache
 def decomposed(body: Body) -> Body:
-    """The union of the CoACD pieces of a closed mesh, vertices snapped to float32. The pieces *are*
-    the body then.
+    """The union of the CoACD pieces of a closed mesh, vertices snapped to float32. The pieces
+    *are* the body then.
     """
     pieces = decompose(body, threshold=0.05, seed=0).pieces
     return Body.union([hull_of(p.vertices, p.name) for p in pieces], f"{body.name} pieces")
@@ -226,8 +224,8 @@ CONVEX_KINDS = (
 
 
 def convex(kind: str, seed: int = 0) -> Body:
-    """One of CONVEX_KINDS by name: what a family means by "any convex body"; `seed` picks among the
-    random ones.
+    """One of CONVEX_KINDS by name: the "any convex body" of the families; `seed` selects among
+    the random ones.
     """
     if kind in CONVEX_MESHES:
         return real_convex(kind)
@@ -244,8 +242,8 @@ def convex(kind: str, seed: int = 0) -> Body:
 
 
 def any_convex(rng: np.random.Generator) -> Body:
-    """A body drawn from CONVEX_KINDS, evenly; random hulls come from a pool of 16 so that engines
-    may reuse what they built.
+    """A body drawn uniformly from CONVEX_KINDS; random hulls come from a pool of 16 so that
+    engines may reuse what they built.
     """
     return convex(CONVEX_KINDS[rng.integers(len(CONVEX_KINDS))], int(rng.integers(16)))
 
@@ -269,8 +267,8 @@ def _ring(n: int):
 
 
 def _revolved(profile: np.ndarray, sections: int, form: str, name: str) -> Body:
-    """A closed (m, 2) profile (radius, z), counter-clockwise, turned about z in `sections` straight
-    steps.
+    """A closed (m, 2) profile (radius, z), counter-clockwise, revolved about z in `sections`
+    straight steps.
     """
     turn = 2 * np.pi * np.arange(sections) / sections
     r, z = profile.T
@@ -296,7 +294,7 @@ def _revolved(profile: np.ndarray, sections: int, form: str, name: str) -> Body:
 
 
 def _load(path: str) -> trimesh.Trimesh:
-    """From the installed package: its meshes carry their own licences and stay where they are."""
+    """A mesh from the installed package; the meshes have their own licences and are not copied."""
     import pybullet_data
 
     mesh = trimesh.load(Path(pybullet_data.getDataPath()) / path, force="mesh")

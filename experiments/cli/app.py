@@ -14,7 +14,7 @@ from experiments.run.folder.store import StoreError
 from experiments.run.processes.machine import ERRNOS, MachineError
 from ofg import BodyError
 
-from .commands import catalogue, compare, publish, run, tables, verify
+from .commands import catalogue, compare, native, publish, run, tables, verify
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -93,6 +93,7 @@ for command in (
     publish.explain,
     verify.verify,
     verify.check,
+    native.native,
 ):
     app.command()(command)
 

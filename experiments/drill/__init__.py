@@ -1,7 +1,6 @@
-"""Drills: the command line is run under faults of the machine and with faulty methods, and none of
-them may become data.
+"""Fault drills: the command line runs under faults of the machine and with faulty methods, none of
+which may corrupt data.
 
-`python -m experiments.drill` knows nothing of how a run works inside: it starts `ofg-bench run`,
-does it harm, says the same command again where it stopped, and compares the files with those of a
-run that was left alone.
+`python -m experiments.drill` uses no internals of a run: it starts `ofg-bench run`, injects a
+fault, repeats the command if it stopped, and compares the files with those of an undisturbed run.
 """

@@ -1,8 +1,8 @@
 """`python -m experiments.drill`: run the command line under every fault and with every faulty
-method; print what came of it.
+method, and print the outcomes.
 
-Exit code 0: every try ended equal to the undisturbed run, or stopped with a reason and then ended
-so. 1: any did not.
+Exit code 0: every try ended equal to the undisturbed run, at once or after stopping with a reason.
+1: some try did not.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from . import command, kin, measure
 from .command import Attempt, Bench
 from .faults import FAULTS, Fault, Missed
 from .faulty.kind import KINDS, Kind
-from .faulty.methods import METHODS  # noqa: F401 - makes the kinds known
+from .faulty.methods import METHODS  # noqa: F401 - registers the kinds
 from .outcome import FAILED, Outcome
 from .tally import Tally
 from .ward import Ward
@@ -32,16 +32,16 @@ from .ward import Ward
 HERE = Path(__file__).parent
 FAULTY, MEMORY = "faulty methods", "memory"
 ALLOCATES = "faulty-allocates-without-end"
-# Kinds that share a run as long as all goes well: fewer disturb each other less while timed.
+# Kinds that share a run as long as all goes well: fewer disturb each other less during timing.
 BATCH, SHORT_BATCH = 8, 24
 EVERY = (*(f.name for f in FAULTS), MEMORY, FAULTY)
-DRAWS = 10  # moments drawn until a fault strikes
+DRAWS = 10  # random times tried before a fault strikes
 FEW = 10  # tries below which a drill is short: without methods that wait for the wall deadline
 
 
 @dataclass(frozen=True)
 class Try:
-    """One thing to be tried: run(place) gives outcomes by what they are of."""
+    """One try: run(place) gives outcomes by their subject."""
 
     fault: str
     run: Callable[[Path], list[tuple[str, Outcome | None]]]
@@ -53,7 +53,7 @@ def main(words: list[str] | None = None) -> int:
     chosen = _arguments(words)
     names = [f for f in EVERY if not chosen.only or any(word in f for word in chosen.only)]
     if not names:
-        print(f"No fault is called so. There are: {', '.join(EVERY)}.", file=sys.stderr)
+        print(f"There is no such fault. The faults are: {', '.join(EVERY)}.", file=sys.stderr)
         return 2
     place, tally = Path(tempfile.mkdtemp(prefix="ofg-drill-")), Tally()
     try:
@@ -62,7 +62,7 @@ def main(words: list[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print(f"{tally.text()}\n\nInterrupted: the table holds what was tried until then.")
+        print(f"{tally.text()}\n\nInterrupted: the table contains the tries so far.")
         return 130
     finally:
         shutil.rmtree(place, ignore_errors=True)
@@ -94,29 +94,33 @@ def _arguments(words) -> argparse.Namespace:
         "--tries",
         type=int,
         default=50,
-        help="of each kill; of other faults a fifth of it [50; below 10: a short drill]",
+        help="tries of each kill; a fifth as many of other faults [50; below 10: a short drill]",
     )
     parser.add_argument(
-        "--only", action="append", help="faults whose name contains this; may be repeated"
+        "--only", action="append", help="only faults whose name contains this; may be repeated"
     )
     parser.add_argument(
-        "--kind", action="append", help="faulty methods whose name contains this; may be repeated"
+        "--kind",
+        action="append",
+        help="only faulty methods whose name contains this; may be repeated",
     )
-    parser.add_argument("--seed", type=int, default=0, help="of the moments")
-    parser.add_argument("--jobs", type=int, default=1, help="tries at once, each with two workers")
-    parser.add_argument("--out", type=Path, help="also write the table into this Markdown file")
+    parser.add_argument("--seed", type=int, default=0, help="seed of the random times")
+    parser.add_argument(
+        "--jobs", type=int, default=1, help="concurrent tries, each with two workers"
+    )
+    parser.add_argument("--out", type=Path, help="also write the table to this Markdown file")
     parser.add_argument(
         "--program",
         nargs="+",
         default=[str(Path(sys.executable).with_name("ofg-bench"))],
-        help="what is drilled [ofg-bench]",
+        help="command to drill [ofg-bench]",
     )
     return parser.parse_args(words)
 
 
 def _title(chosen) -> str:
     command = f"python -m experiments.drill --tries {chosen.tries} --seed {chosen.seed}"
-    return f"`{command}`: final files of accuracy against the undisturbed run."
+    return f"`{command}`: final files of accuracy compared with the undisturbed run."
 
 
 def _drill(chosen, names: list[str], place: Path, tally: Tally) -> None:
@@ -147,7 +151,7 @@ def _drill(chosen, names: list[str], place: Path, tally: Tally) -> None:
 
 
 def _all(tries: list[Try], place: Path, jobs: int):
-    """Each try with its outcomes, as they end; whoever stops listening leaves no process."""
+    """Each try with its outcomes, as they end; a consumer that stops early leaves no process."""
     with ThreadPoolExecutor(jobs) as pool:
         running = {pool.submit(_tried, t, place / f"{i:05d}"): t for i, t in enumerate(tries)}
         try:
@@ -165,7 +169,7 @@ def _times(fault: Fault, tries: int) -> int:
 
 
 def _tried(one: Try, place: Path) -> list[tuple[str, Outcome | None]]:
-    """Run it in a folder of its own, which is gone afterwards."""
+    """Run it in a temporary folder, which is then removed."""
     try:
         return one.run(place)
     finally:
@@ -194,7 +198,7 @@ def _of_memory(ward: Ward, names: list[str]) -> list[Try]:
 
 
 def _of_methods(ward: Ward, chosen, names: list[str]) -> list[Try]:
-    """Kinds that wait in runs of their own, the others in batches."""
+    """Kinds that wait get separate runs, the others run in batches."""
     kinds = [
         k for k in KINDS.values() if not chosen.kind or any(word in k.name for word in chosen.kind)
     ]
@@ -210,7 +214,7 @@ def _of_methods(ward: Ward, chosen, names: list[str]) -> list[Try]:
 
 
 def _batch(ward: Ward, kinds: list[Kind], place: Path) -> list[tuple[str, Outcome]]:
-    """All in one run; where that fails, each alone, which says whose fault it is."""
+    """All in one run; if that fails, each alone, which shows the cause."""
     together = ward.visit(kinds, place / "together")
     if together.kind != FAILED or len(kinds) == 1:
         return [(k.name, together) for k in kinds]

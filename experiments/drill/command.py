@@ -1,4 +1,4 @@
-"""`ofg-bench run CONFIG --out FOLDER`, as someone types it: started, watched, ended."""
+"""`ofg-bench run CONFIG --out FOLDER` as a user types it: started, watched, ended."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ import psutil
 
 from . import kin
 
-GRACE = 0.5  # seconds after the runner's end in which what it started must be gone
-HANG = 240.0  # seconds beyond twenty times its undisturbed duration, as limits have to run out
+GRACE = 0.5  # seconds after the runner's end within which its processes must be gone
+HANG = 240.0  # seconds beyond twenty times its undisturbed duration, because limits have to expire
 
-OURS = f"{os.getpid()}-"  # with which the marks of this drill begin
+OURS = f"{os.getpid()}-"  # prefix of this drill's marks
 
 
 @dataclass(frozen=True)
 class Ending:
-    """How a command ended. code: None if it hung and was killed. text: all it printed. orphans:
-    what was left of it.
+    """How a command ended. code: None if it hung and was killed. text: its whole output.
+    orphans: the processes that it left.
     """
 
     code: int | None
@@ -32,7 +32,7 @@ class Ending:
 
     @property
     def reason(self) -> str:
-        """Its last words."""
+        """The last line of its output."""
         lines = [line.strip() for line in self.text.splitlines() if line.strip()]
         return " ".join(lines[-3:])[:300]
 
@@ -62,7 +62,7 @@ class Running:
 
     @property
     def age(self) -> float:
-        """Seconds since it was started."""
+        """Seconds since its start."""
         return time.monotonic() - self.begun
 
     @property
@@ -70,7 +70,9 @@ class Running:
         return self.process.poll() is not None
 
     def limit(self, *which) -> None:
-        """Set a limit of the runner, which all it starts inherit: psutil.RLIMIT_FSIZE, bytes."""
+        """Set a limit of the runner, which all its processes inherit: psutil.RLIMIT_FSIZE,
+        bytes.
+        """
         kind, size = which
         psutil.Process(self.process.pid).rlimit(kind, (size, size))
 
@@ -84,7 +86,7 @@ class Running:
         """Its first process; [] if it has ended."""
         try:
             return [psutil.Process(self.process.pid)]
-        except psutil.NoSuchProcess:  # poll() buries it between two looks
+        except psutil.NoSuchProcess:  # poll() reaps it between two checks
             return []
 
     def below(self, role: str) -> list[psutil.Process]:
@@ -94,7 +96,7 @@ class Running:
         return kin.marked(self.mark)
 
     def finish(self, seconds: float) -> Ending:
-        """Wait for the end, at most `seconds`; then look for orphans, and end them."""
+        """Wait for the end, at most `seconds`; then find orphans, and kill them."""
         try:
             code = self.process.wait(seconds)
         except subprocess.TimeoutExpired:
@@ -112,9 +114,9 @@ class Running:
 
 @dataclass(frozen=True)
 class Bench:
-    """What is drilled. program: the words that start it. seconds: what the run takes undisturbed.
-    busy: since when it had workers and until when. sums: digests of the files of accuracy of the
-    undisturbed run. size: bytes of its folder.
+    """The subject of the drill. program: the words that start it. seconds: duration of the
+    undisturbed run. busy: the interval in which it had workers. sums: digests of the files of
+    accuracy of the undisturbed run. size: bytes of its folder.
     """
 
     program: tuple[str, ...]

@@ -1,5 +1,5 @@
-"""The faults of a machine, each a function that runs one command under it at a moment that is
-drawn.
+"""The faults of a machine, each a function that runs one command and injects the fault at a
+random time.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from .command import Attempt, Ending, Running
 from .outcome import FAILED, Outcome, misconduct, settle
 
 PAUSE = 6.0  # seconds of a SIGSTOP: more than any limit of drill.toml
-ROOM = 1 << 28  # bytes of a disk that is no longer full
+ROOM = 1 << 28  # bytes of a disk with free space again
 Strike = Callable[[Attempt, Random], Outcome]
 LEAST = 4096  # bytes of the smallest disk: one page
 
 
 class Missed(Exception):
-    """The run ended before the fault struck: another moment has to be drawn."""
+    """The run ended before the fault struck: another time has to be drawn."""
 
 
 @dataclass(frozen=True)
 class Fault:
-    """strike: does it to one attempt. rare: tried a fifth as often. seconds: what it adds to a
-    run, for the forecast.
+    """strike: injects the fault into one attempt. rare: tried a fifth as often. seconds: added
+    duration of a run, for the forecast.
     """
 
     name: str
@@ -42,19 +42,19 @@ class Fault:
 
 
 def undisturbed(attempt: Attempt, random: Random) -> Outcome:
-    """No fault, and one worker: what moves here is no fault of the machine."""
+    """No fault, and one worker: a difference here does not come from a fault of the machine."""
     attempt.workers = 1
     return settle(attempt, attempt.say())
 
 
 def signalled(number: int, halts: set[int]) -> Strike:
-    """The runner gets a signal: alone, or with its process group where a terminal sends it so."""
+    """The runner gets a signal: alone, or with its process group, as a terminal sends it."""
 
     def strike(attempt: Attempt, random: Random) -> Outcome:
         running = attempt.start()
         struck = running.reach(random.uniform(0.02, attempt.bench.seconds))
         while number == signal.SIGINT and struck and not attempt.folder.exists():
-            # Python itself prints a traceback while it starts; nothing is begun before the folder
+            # Python itself prints a traceback during its start; nothing is begun before the folder
             time.sleep(0.01)
             struck = not running.over
         if struck:
@@ -82,8 +82,8 @@ def killed(role: str) -> Strike:
 
 
 def stopped(role: str | None) -> Strike:
-    """SIGSTOP for longer than a limit, then SIGCONT. role: of one process, "" of the runner, None
-    of all at once.
+    """SIGSTOP for longer than a limit, then SIGCONT. role: of one process, "" of the runner,
+    None of all at once.
     """
 
     def strike(attempt: Attempt, random: Random) -> Outcome:
@@ -109,8 +109,8 @@ def stopped(role: str | None) -> Strike:
 def _at_one(
     running: Running, role: str, attempt: Attempt, random: Random, what: str
 ) -> list[psutil.Process]:
-    """Do `what` to one process of the role, the first that is there from a drawn moment on; [] if
-    none came any more.
+    """Apply `what` to the first process of the role that exists after a random time; [] if none
+    appears.
     """
     running.reach(random.uniform(*attempt.bench.busy))
     while not running.over:
@@ -121,8 +121,8 @@ def _at_one(
 
 
 def full_disk(attempt: Attempt, random: Random) -> Outcome:
-    """The disk of the run folder has too little room; then there is some, and the command is said
-    again.
+    """The disk of the run folder has too little room; then it gets room, and the command is
+    repeated.
     """
     size = _drawn(random, 4 * LEAST, attempt.bench.size)
     if not volume.mountable():
@@ -134,7 +134,7 @@ def full_disk(attempt: Attempt, random: Random) -> Outcome:
 
 
 def full_temporary(attempt: Attempt, random: Random) -> Outcome:
-    """TMPDIR has too little room, from nothing but a page on."""
+    """TMPDIR has too little room, from a single page upwards."""
     size = _drawn(random, LEAST, 1 << 18)
     if not volume.mountable():
         return _short_files(attempt, max(size, 1 << 15))
@@ -151,15 +151,13 @@ def _short_files(attempt: Attempt, size: int) -> Outcome:
 
 
 def _drawn(random: Random, least: int, most: int) -> int:
-    """Bytes, by their logarithm, in whole pages."""
+    """A log-uniform number of bytes, in whole pages."""
     size = math.exp(random.uniform(math.log(least), math.log(max(most, 2 * least))))
     return int(size) // LEAST * LEAST
 
 
 def read_only(attempt: Attempt, random: Random) -> Outcome:
-    """The run is killed, its disk is read-only when the command is said again, and then it can be
-    written.
-    """
+    """The run is killed, its disk is read-only when the command is repeated, and then writable."""
     running = attempt.start()
     if running.reach(random.uniform(0.02, attempt.bench.seconds)):
         running.process.kill()
@@ -167,7 +165,7 @@ def read_only(attempt: Attempt, random: Random) -> Outcome:
         return Outcome(FAILED, bad)
     with volume.read_only(attempt.disk):
         ending = attempt.say()
-    # a folder that cannot be written may be the user's mistake, whose exit code is 2
+    # a folder that is not writable may be the user's mistake, whose exit code is 2
     honest = (
         Ending(1, ending.text, ending.orphans) if ending.code == 2 and ending.reason else ending
     )
@@ -175,7 +173,7 @@ def read_only(attempt: Attempt, random: Random) -> Outcome:
 
 
 def two_runners(attempt: Attempt, random: Random) -> Outcome:
-    """The same command is said a second time while it still runs: the second is refused, or has
+    """The same command is started a second time during the run: the second is refused, or has
     nothing to do.
     """
     first = attempt.start()
@@ -195,7 +193,7 @@ def two_runners(attempt: Attempt, random: Random) -> Outcome:
 
 
 def _how() -> str:
-    return "a tmpfs" if volume.mountable() else "RLIMIT_FSIZE, as nothing can be mounted here"
+    return "a tmpfs" if volume.mountable() else "RLIMIT_FSIZE, because nothing can be mounted here"
 
 
 FAULTS = (
@@ -216,7 +214,9 @@ FAULTS = (
         "read-only run folder",
         read_only,
         note=lambda: (
-            "a read-only mount" if volume.mountable() else "modes, as nothing can be mounted here"
+            "a read-only mount"
+            if volume.mountable()
+            else "modes, because nothing can be mounted here"
         ),
     ),
     Fault("two runners", two_runners),

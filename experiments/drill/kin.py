@@ -1,9 +1,9 @@
-"""The processes of a run, found from outside: by a mark in their environment, and by their place
+"""Find the processes of a run from outside: by a mark in their environment, and by their position
 below the runner.
 
-Every process of a drill's run inherits the variable MARK; /proc keeps what a process was started
-with, so that neither a change of its environment nor a new session nor the death of its parent
-hides it.
+Every process of a drill's run inherits the variable MARK; /proc keeps the environment with which a
+process started, so a change of its environment, a new session or the death of its parent does not
+hide it.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ _GONE = (psutil.NoSuchProcess, psutil.AccessDenied, psutil.ZombieProcess)
 
 
 def marked(mark: str) -> list[psutil.Process]:
-    """All living processes whose mark begins so; a zombie is none."""
+    """All living processes whose mark has this prefix, without zombies."""
     found = (p for p in psutil.process_iter() if _environment(p).get(MARK, "").startswith(mark))
     return [p for p in found if _alive(p)]
 
@@ -24,9 +24,9 @@ def marked(mark: str) -> list[psutil.Process]:
 def below(runner: int, role: str) -> list[psutil.Process]:
     """Processes of the runner in a role.
 
-    SERVER: its children that have children of their own, or whose command line names a fork
-    server. WORKER: what is below a server, and the runner's other children, except Python's
-    resource tracker, which answers nothing.
+    SERVER: its children that have children of their own, or whose command line names a fork server.
+    WORKER: the processes below a server, and the runner's other children, except Python's resource
+    tracker, which answers nothing.
     """
     try:
         children = [
@@ -43,21 +43,21 @@ def below(runner: int, role: str) -> list[psutil.Process]:
 
 
 def describe(process: psutil.Process) -> str:
-    """The end of its command line, for a message: what is alike is told once, so without its
-    number.
-    """
+    """The end of its command line, without its number, so that equal ones are reported once."""
     return " ".join(_command(process).split()[1:])[:60] or "a process"
 
 
 def end(processes: list[psutil.Process]) -> None:
-    """kill -9, whatever state they are in; they are gone, or zombies, afterwards."""
+    """kill -9, whatever their state; afterwards they are gone, or zombies."""
     for process in processes:
         send(process, "kill")
     psutil.wait_procs(processes, timeout=2.0)
 
 
 def send(process: psutil.Process, what: str) -> bool:
-    """Call `kill`, `suspend` or `resume` of a process that may be gone; whether it was there."""
+    """Call `kill`, `suspend` or `resume` of a process that may be gone; returns whether it
+    existed.
+    """
     try:
         getattr(process, what)()
         return True

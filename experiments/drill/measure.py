@@ -1,4 +1,4 @@
-"""The undisturbed run that all others are compared with."""
+"""The undisturbed run, with which all others are compared."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from .outcome import misconduct, sums
 
 
 class Undrillable(RuntimeError):
-    """The undisturbed run failed already; the message says how."""
+    """The undisturbed run itself failed; the message gives the reason."""
 
 
 def undisturbed(bench: Bench, place: Path) -> tuple[Bench, Path]:
-    """The bench with what an undisturbed run showed, and the folder of that run.
+    """The bench with the measurements of an undisturbed run, and the folder of that run.
 
     Raises Undrillable if it does not finish.
     """

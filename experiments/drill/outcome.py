@@ -1,4 +1,4 @@
-"""What became of a try: equal, an honest stop, or failed."""
+"""The outcome of a try: equal, an honest stop, or failed."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from .command import Attempt, Ending
 
 FILES = ("cases.parquet", "bodies.parquet", "observations.parquet")
 EQUAL, HONEST, FAILED = "equal", "honest stop", "failed"
-WORDS = 5  # that a reason has at least: "Aborted." names nothing
+WORDS = 5  # minimum length of a reason: "Aborted." gives none
 TRACEBACK = "Traceback (most recent call last)"
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """kind: EQUAL, HONEST or FAILED. why: in words, where it failed or stopped."""
+    """kind: EQUAL, HONEST or FAILED. why: the reason, if it failed or stopped."""
 
     kind: str
     why: str = ""
 
 
 def sums(folder: Path) -> tuple[str, ...]:
-    """SHA-256 of each file of accuracy of a run; "missing" where one is."""
+    """SHA-256 of each file of accuracy of a run; "missing" if there is none."""
     paths = [folder / name for name in FILES]
     return tuple(
         hashlib.sha256(p.read_bytes()).hexdigest() if p.is_file() else "missing" for p in paths
@@ -31,7 +31,7 @@ def sums(folder: Path) -> tuple[str, ...]:
 
 
 def misconduct(ending: Ending) -> str:
-    """What no end of a command may show, or nothing."""
+    """A fault that no command may show at its end, or ""."""
     if ending.code is None:
         return "it hung"
     if TRACEBACK in ending.text:
@@ -43,10 +43,10 @@ def misconduct(ending: Ending) -> str:
 
 
 def settle(attempt: Attempt, ending: Ending, halts: frozenset[int] = frozenset()) -> Outcome:
-    """The outcome of a command that ended so. halts: exit codes that the fault itself accounts
+    """The outcome of a command with this ending. halts: exit codes that the fault itself accounts
     for.
 
-    Where it stopped, the same command is said again; it must then finish with the files of the
+    If it stopped, the same command is repeated; it must then finish with the files of the
     undisturbed run.
     """
     if bad := misconduct(ending):
@@ -60,9 +60,9 @@ def settle(attempt: Attempt, ending: Ending, halts: frozenset[int] = frozenset()
             return Outcome(FAILED, f"exit code 1 without a reason: '{ending.reason}'")
     again = attempt.say()
     if bad := misconduct(again):
-        return Outcome(FAILED, f"said again: {bad}")
+        return Outcome(FAILED, f"repeated: {bad}")
     if again.code:
-        return Outcome(FAILED, f"said again, it refused with {again.code}: {again.reason}")
+        return Outcome(FAILED, f"repeated, it refused with {again.code}: {again.reason}")
     found = _compare(attempt)
     if found.kind == EQUAL and ending.code not in halts:
         return Outcome(HONEST, ending.reason)

@@ -9,11 +9,11 @@ from tabulate import tabulate
 from .outcome import EQUAL, FAILED, HONEST, Outcome
 
 HEADS = ("fault", "tries", "equal", "honest stops", "failed", "missed", "note")
-SHOWN = 20  # failures of one fault that are told
+SHOWN = 20  # failures reported per fault
 
 
 class Tally:
-    """Counts outcomes by fault, in the order in which faults are named first."""
+    """Counts outcomes by fault, in the order in which faults first appear."""
 
     def __init__(self):
         self.counts: dict[str, Counter] = defaultdict(Counter)
@@ -24,7 +24,7 @@ class Tally:
         self.counts[fault], self.notes[fault] = Counter(), note
 
     def add(self, fault: str, what: str, outcome: Outcome | None) -> None:
-        """what: the try, as it can be told again. None: the fault never struck."""
+        """what: a description that allows repeating the try. None: the fault never struck."""
         self.counts[fault][outcome.kind if outcome else "missed"] += 1
         if outcome and outcome.why:
             self.whys.append((fault, f"{outcome.kind}, {what}", outcome.why))
@@ -51,8 +51,8 @@ class Tally:
         return tabulate(rows, HEADS, tablefmt=form)
 
     def reasons(self) -> list[str]:
-        """A line for each failure and each honest stop, at most SHOWN of a fault; alike ones are
-        told once.
+        """A line for each failure and each honest stop, at most SHOWN per fault; equal ones are
+        reported once.
         """
         kept: dict[str, Counter] = defaultdict(Counter)
         for fault, what, why in self.whys:

@@ -1,5 +1,5 @@
-"""A disk that fills up or turns read-only: a small tmpfs where it may be mounted, else the nearest
-that can be had, and said so.
+"""A disk that fills up or turns read-only: a small tmpfs if it may be mounted, else the nearest
+substitute, which is reported.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ def mountable() -> bool:
 
 @contextlib.contextmanager
 def small(folder: Path, size: int) -> Iterator[None]:
-    """A tmpfs of `size` bytes at an empty folder. Ends with the block, whoever still holds a file
-    on it. OSError if refused.
+    """A tmpfs of `size` bytes at an empty folder. Unmounted at the end of the block, even if
+    files on it are open. OSError if refused.
     """
     _do("mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder))
     try:
@@ -34,14 +34,14 @@ def small(folder: Path, size: int) -> Iterator[None]:
 
 
 def resize(folder: Path, size: int) -> None:
-    """Give the tmpfs at `folder` this many bytes. OSError if refused."""
+    """Resize the tmpfs at `folder` to this many bytes. OSError if refused."""
     _do("mount", "-o", f"remount,size={size}", str(folder))
 
 
 @contextlib.contextmanager
 def read_only(folder: Path) -> Iterator[None]:
-    """Nothing below `folder` can be written within the block: by a mount of itself, or by its
-    modes where one may not mount.
+    """Make everything below `folder` read-only within the block: by a mount of itself, or by its
+    modes if mounting is not permitted.
     """
     if mountable():
         _do("mount", "--bind", str(folder), str(folder))

@@ -1,4 +1,4 @@
-"""Runs with faulty methods: who is sick must be named, and nobody else may have caught anything."""
+"""Runs with faulty methods: each faulty method must be named, and no other may be affected."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from .faulty.kind import ERROR, TIMEOUT, Kind
 from .outcome import EQUAL, FAILED, FILES, Outcome, misconduct
 
 METHOD_FILE = Path(__file__).parent / "faulty" / "methods.py"
-SIZE = 64 << 20  # bytes that a run folder may have, whatever methods print
-WORDS = 1000  # characters that a row may spend on its reason
-SLOW = 900.0  # seconds more that a run may take for each kind that waits for the wall deadline
+SIZE = 64 << 20  # maximum bytes of a run folder, whatever methods print
+WORDS = 1000  # maximum characters of the reason in a row
+SLOW = 900.0  # extra seconds of a run for each kind that waits for the wall deadline
 BUSY = 60.0  # and for each other one
 _NOTICE = re.compile(r"warning|answered n|no answer|nothing", re.IGNORECASE)
 
@@ -57,7 +57,7 @@ class Ward:
         return path
 
     def _wrong(self, folder: Path, ending: Ending, kinds: list[Kind]) -> str:
-        """The first thing that is not as it must be, or nothing."""
+        """The first fault of the run, or ""."""
         if ending.code:
             return f"exit code {ending.code}: {ending.reason}"
         for name in FILES[:2]:
@@ -82,7 +82,7 @@ def _same(found: pd.DataFrame, expected: pd.DataFrame) -> bool:
 
 
 def _ill(rows: pd.DataFrame, kind: Kind, cases: list[str], text: str) -> str:
-    """What is wrong with the rows of a faulty method, or nothing."""
+    """The fault of a faulty method's rows, or ""."""
     if list(rows.case) != cases:
         return f"{kind.name} has {len(rows)} rows for {len(cases)} cases"
     if strange := set(rows.status) - kind.statuses:
@@ -99,5 +99,5 @@ def _ill(rows: pd.DataFrame, kind: Kind, cases: list[str], text: str) -> str:
 
 
 def _paragraphs(text: str) -> list[str]:
-    """What was printed, in lines that a terminal did not fold."""
+    """The output, with lines folded by the terminal joined."""
     return [" ".join(block.split()) for block in re.split(r"\n\s*\n", text)] + text.splitlines()

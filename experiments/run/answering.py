@@ -1,5 +1,5 @@
-"""From certified cases to observations: every method is asked every case, in processes that may
-die.
+"""From certified cases to observations: every method answers every case, in worker processes
+that may crash.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from .folder.store import Store
 from .processes.pool import Task, limit, mixed, run
 from .progress import stage
 
-CHUNK = 256  # cases asked in one process: bounds what a leaking engine can hold
+CHUNK = 256  # cases answered in one process: bounds the memory that a leaking engine can take
 COLUMNS = ["case", "method", "status", "hit", "time", "detail"]
-# seconds, on a busy machine: good to plan the rest of the run by, and for nothing else
+# seconds, on a busy machine: used only to estimate the remaining time of the run
 PACE = [
     "build_s",
     "query_s",
@@ -39,11 +39,9 @@ def ask(
     workers: int,
     told: Callable[[str, list[dict]], None] = lambda label, rows: None,
 ) -> None:
-    """Write observations.parquet, a row per case and method; shards that are there already are not
-    made again.
+    """Write observations.parquet, a row per case and method; existing shards are not made again.
 
-    told(label, rows): called with the rows of each chunk of a method, with their PACE, when it is
-    done.
+    told(label, rows): called with the rows of each finished chunk of a method, with their PACE.
     """
     cases = [
         case for case, _ in cases_of(store.read("cases.parquet"), store.read("bodies.parquet"))
@@ -105,7 +103,7 @@ def asker(argument: tuple[str, RunConfig]):
         reason = registry.available(type(method))
     except MissingEngine as error:
         reason = words.text_of(error)
-    except BaseException as error:  # its constructor is the method's too
+    except BaseException as error:  # its constructor is part of the method too
         reason = words.of_error(error)
         return lambda case: row(case, spec, "error", detail=reason)
     if reason:
@@ -114,10 +112,10 @@ def asker(argument: tuple[str, RunConfig]):
 
 
 def answer(method, case: Case, config: RunConfig, label: str | None = None) -> dict:
-    """The observation row of one method at one case. Whatever it raises is its answer: status
+    """The observation row of one method for one case. Whatever it raises becomes its answer: status
     `error`.
 
-    label: the method's, where it is known; a method may change its own while it runs.
+    label: the method's, if known; a method may change its own while it runs.
     """
     label = label or method.label
     try:
@@ -133,13 +131,13 @@ def answer(method, case: Case, config: RunConfig, label: str | None = None) -> d
         return row(case, label, "unsupported", detail=words.text_of(refusal))
     except _Unclear as unclear:
         return row(case, label, "error", detail=str(unclear))
-    except BaseException as error:  # SystemExit, and the panics of pyo3, are none of Exception
+    except BaseException as error:  # SystemExit and pyo3's panics do not derive from Exception
         return row(case, label, "error", detail=words.of_error(error))
     return {**row(case, label, "ok", verdict.hit, verdict.time), **pace}
 
 
 class _Unclear(Exception):
-    """What a method returned is no clear answer; the message says why."""
+    """A method returned an invalid answer; the message gives the reason."""
 
 
 def _checked(said) -> Verdict:

@@ -1,4 +1,4 @@
-"""What a run consists of: read from a preset or a TOML file, checked field by field."""
+"""The configuration of a run: read from a preset or a TOML file, and validated field by field."""
 
 from __future__ import annotations
 
@@ -15,18 +15,16 @@ from .folder import given
 
 PRESETS = Path(__file__).parents[1] / "presets"
 CATALOGUE = Path(__file__).parents[1] / "catalogue"
-LONGEST = (
-    1e6  # seconds, of a limit: eleven days; the watchdog takes no more than some hundred years
-)
+LONGEST = 1e6  # seconds, of a limit: eleven days; the watchdog supports at most some hundred years
 MOST_BYTES = 1_000_000  #: of a configuration
 MOST_CASES, MOST_SEED = 10**6, 2**63 - 1
-# entry points of installed packages that bring experiments: the path of a .toml file, or of a
+# entry points of installed packages that provide experiments: the path of a .toml file, or of a
 # folder of them
 GROUP = "ofg.experiments"
 
 
 class ConfigError(ValueError):
-    """A configuration that cannot be run; the message names the file, the field and the remedy."""
+    """An invalid configuration; the message names the file, the field and the remedy."""
 
 
 class _Strict(BaseModel):
@@ -34,8 +32,8 @@ class _Strict(BaseModel):
 
 
 class ScenarioChoice(_Strict):
-    """One family of cases: how many at each of which levels of difficulty (all of them if none are
-    named).
+    """One family of cases: the number of cases at each level, and the levels of difficulty (all
+    if none are given).
     """
 
     name: str
@@ -44,7 +42,7 @@ class ScenarioChoice(_Strict):
 
 
 class TimingChoice(_Strict):
-    """How time is measured; `cases` 0 leaves it out."""
+    """How time is measured; with `cases` = 0 it is not."""
 
     cases: int = Field(
         default=24,
@@ -53,19 +51,17 @@ class TimingChoice(_Strict):
         description="cases timed in each bin of question, size and situation",
     )
     rounds: int = Field(
-        default=9, ge=3, le=MOST_CASES, description="how often each case is timed by each method"
+        default=9, ge=3, le=MOST_CASES, description="how often each method is timed on each case"
     )
-    warmup: int = Field(default=2, ge=0, le=MOST_CASES, description="rounds thrown away first")
+    warmup: int = Field(
+        default=2, ge=0, le=MOST_CASES, description="number of warm-up rounds, which are discarded"
+    )
     seconds: float = Field(
         default=4.0,
         gt=0,
-        description=(
-            "a method that takes longer for its rounds of a bin takes part in fewer, at least 3"
-        ),
+        description=("time limit per bin; a slower method takes part in fewer rounds, at least 3"),
     )
-    reference: str = Field(
-        default="", description="method that ratios are taken to [the run's first]"
-    )
+    reference: str = Field(default="", description="method to which ratios refer [the run's first]")
 
 
 Value = Literal[
@@ -86,7 +82,7 @@ Value = Literal[
 
 
 class TableChoice(_Strict):
-    """A table particular to an experiment: a row per method, a column per value of `columns`,
+    """A table specific to an experiment: a row per method, a column per value of `columns`,
     `value` in the cells.
     """
 
@@ -105,24 +101,27 @@ class TableChoice(_Strict):
             " a tag of the scenarios"
         ),
     )
-    scenarios: tuple[str, ...] = Field(default=(), description="only cases of these [all]")
-    question: str = Field(default="", description="only cases of this question [all]")
+    scenarios: tuple[str, ...] = Field(
+        default=(), description="restrict to cases of these scenarios [all]"
+    )
+    question: str = Field(default="", description="restrict to cases of this question [all]")
     situation: Literal["", "deep", "near", "apart", "hit", "clear"] = Field(
         default="",
         description=(
-            "only cases of this situation; a table of times without one is made for each situation"
+            "restrict to cases of this situation; without it, a table of times is made for each "
+            "situation"
         ),
     )
     headline: bool = Field(default=True, description="printed at the end of the run")
 
 
 class SteppingChoice(_Strict):
-    """The stepping track: engines as simulators, in scenes of experiments/studies/stepping instead
-    of scenarios.
+    """The stepping track: engines as simulators, in scenes of experiments/studies/stepping
+    instead of scenarios.
     """
 
     runs: int = Field(
-        ge=1, le=MOST_CASES, description="runs for each cell, each at a start phase of its own"
+        ge=1, le=MOST_CASES, description="runs for each cell, each with its own start phase"
     )
     scenes: tuple[str, ...] = Field(default=(), description="names of scenes [all]")
     travels: tuple[float, ...] = Field(
@@ -131,14 +130,17 @@ class SteppingChoice(_Strict):
 
 
 class RunConfig(_Strict):
-    """methods: specifications such as "ofg k=4,8,16": a name, then parameters, several values each.
+    """methods: specifications such as "ofg k=4,8,16": a name, then parameters, each with one or
+    several values.
 
-    optional_methods: the same, of engines that may be absent: the run then says so and leaves their
-    rows `unsupported`.
+    optional_methods: the same, for engines that may be absent: the run then reports this and their
+    rows are `unsupported`.
     """
 
     title: str = ""
-    about: str = Field(default="", description="the question that it answers, in a sentence")
+    about: str = Field(
+        default="", description="the question that the experiment answers, in a sentence"
+    )
     seed: int = Field(ge=0, le=MOST_SEED)
     methods: tuple[str, ...] = ()
     optional_methods: tuple[str, ...] = ()
@@ -147,10 +149,10 @@ class RunConfig(_Strict):
     tables: tuple[TableChoice, ...] = ()
     timing: TimingChoice = TimingChoice()
     method_files: tuple[str, ...] = Field(
-        default=(), description="Python files with METHODS = [...] of your own"
+        default=(), description="your own Python files with METHODS = [...]"
     )
     scenario_files: tuple[str, ...] = Field(
-        default=(), description="Python files with SCENARIO = ... of your own"
+        default=(), description="your own Python files with SCENARIO = ..."
     )
     build_seconds: float = Field(
         default=300.0,
@@ -185,7 +187,9 @@ class RunConfig(_Strict):
         return self.methods + self.optional_methods
 
     def differences(self, other: RunConfig) -> list[str]:
-        """Fields by which the rows of two runs differ; words and tables are not among them."""
+        """Fields that make the rows of two runs differ; descriptive texts and tables are not
+        among them.
+        """
         return [
             k
             for k, v in self.model_dump(exclude={"title", "about", "tables"}).items()
@@ -208,15 +212,15 @@ def experiments() -> dict[str, Path]:
             path = Path(entry.load())
         except Exception as error:
             raise ConfigError(
-                f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded"
-                f" ({type(error).__name__}: {error}). It names an object that is the path of a"
-                " .toml file or of a folder; mend or uninstall its package."
+                f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded "
+                f"({type(error).__name__}: {error}). It must name an object that is the path of a "
+                ".toml file or of a folder; repair or uninstall its package."
             ) from error
         for file in sorted(path.glob("*.toml")) if path.is_dir() else [path]:
             if file.stem in found or file.stem in presets():
                 raise ConfigError(
-                    f"The entry point '{entry.name}' of the group {GROUP} brings an experiment"
-                    f" '{file.stem}', a name that is taken; rename its file."
+                    f"The entry point '{entry.name}' of the group {GROUP} provides an experiment "
+                    f"'{file.stem}', a name that is taken; rename its file."
                 )
             found[file.stem] = file
     return found
@@ -231,15 +235,17 @@ def path_of(source: str) -> Path:
     known = {**experiments(), **{name: PRESETS / f"{name}.toml" for name in presets()}}
     if source not in known:
         raise ConfigError(
-            f"There is no preset or experiment '{source}'{closest(source, known)}. The presets are"
-            f" {', '.join(presets())}; the experiments are {', '.join(experiments())}; a"
-            " configuration of your own is a path that ends in .toml."
+            f"There is no preset or experiment '{source}'{closest(source, known)}. The presets "
+            f"are {', '.join(presets())}; the experiments are {', '.join(experiments())}; give a "
+            "configuration of your own as a path that ends in .toml."
         )
     return known[source]
 
 
 def load(source: str) -> RunConfig:
-    """A preset's or an experiment's name, or the path of a TOML file. Raises ConfigError."""
+    """Load a configuration by the name of a preset or an experiment, or by the path of a TOML
+    file. Raises ConfigError.
+    """
     path = path_of(source)
     if not path.exists():
         raise ConfigError(
@@ -258,13 +264,13 @@ def load(source: str) -> RunConfig:
         raise
     except ValueError as error:  # a whole number of thousands of digits
         raise ConfigError(
-            f"{what} {path} holds a number that cannot be read: {given.reason(error)}."
+            f"{what} {path} contains a number that cannot be read: {given.reason(error)}."
         ) from error
 
 
 def parsed(content: dict | str, path: Path, what: str = "The file") -> RunConfig:
-    """The configuration that a table, or the text of a JSON file, holds. ConfigError, which names
-    the file and the fields.
+    """The configuration in a table, or in the text of a JSON file. ConfigError, which names the
+    file and the fields.
     """
     try:
         return (
@@ -274,8 +280,8 @@ def parsed(content: dict | str, path: Path, what: str = "The file") -> RunConfig
         )
     except ValidationError as error:
         raise ConfigError(
-            f"{what} {path} has {error.error_count()} wrong field(s):"
-            f" {given.clipped(_wrong(error), 1000)}."
+            f"{what} {path} has {error.error_count()} invalid field(s): "
+            f"{given.clipped(_wrong(error), 1000)}."
         ) from error
 
 
@@ -288,7 +294,7 @@ def _wrong(error: ValidationError) -> str:
 
 
 def load_files(config: RunConfig) -> None:
-    """Make the methods and scenarios of the configuration's own files known to this process."""
+    """Load the configuration's own files of methods and scenarios into this process."""
     from baselines import registry
     from experiments.cases import families
 
@@ -299,6 +305,6 @@ def load_files(config: RunConfig) -> None:
 
 
 def closest(word: str, words) -> str:
-    """', did you mean ...?' or nothing."""
+    """', did you mean ...?' or an empty string."""
     near = difflib.get_close_matches(word, list(words), n=3, cutoff=0.5)
     return f" (did you mean {' or '.join(near)}?)" if near else ""

@@ -1,5 +1,5 @@
-"""What a run's own methods and scenarios declare, recorded with it: so that it can be read without
-running their files.
+"""The declarations of a run's own methods and scenarios, recorded so that the run can be read
+without running their files.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from experiments.cases.scenario import Scenario
 from .config import RunConfig
 from .folder.store import Store, StoreError
 
-MODULE = (  # begins like the module of a method file, which may take its place
+MODULE = (  # resembles the module of a method file, which may replace it
     "baselines_file_recorded"
 )
 Question = Literal["overlap", "translation", "motion"]
@@ -39,7 +39,7 @@ class ToleranceFacts(_Recorded):
 
 
 class MethodFacts(_Recorded):
-    """Class attributes of a Method that tables and pages show or reckon with."""
+    """Class attributes of a Method that tables and pages show or compute with."""
 
     engine: str
     configuration: str
@@ -48,7 +48,7 @@ class MethodFacts(_Recorded):
     solid: bool
     tolerance: ToleranceFacts
     precision: Literal["double", "single"]
-    decomposes: bool = False  # manifests of older runs do not say it
+    decomposes: bool = False  # absent from manifests of older runs
     guarantee: str
     parameters: dict[str, bool | int | float | str]
 
@@ -61,15 +61,17 @@ class ScenarioFacts(_Recorded):
 
 
 class Declared(_Recorded):
-    """Of manifest.json: by name, what does not come with this project."""
+    """Part of manifest.json: by name, the methods and scenarios that are not part of this
+    project.
+    """
 
     methods: dict[str, MethodFacts] = {}
     scenarios: dict[str, ScenarioFacts] = {}
 
 
 def of(config: RunConfig) -> dict:
-    """What a run is to record of its own methods and scenarios, which are loaded already; {} where
-    it has none.
+    """The record of a run's own methods and scenarios, which are already loaded; {} if it has
+    none.
     """
     classes = {name: registry.methods()[name] for name in map(name_of, config.asked)}
     own = {
@@ -101,31 +103,30 @@ def _method(cls) -> MethodFacts:
         tolerance=_tolerance(cls),
         parameters=dict(cls.parameters),
     )
-    if not isinstance(said["precision"], str):  # a property, that its parameters decide
+    if not isinstance(said["precision"], str):  # a property that depends on its parameters
         said["precision"] = "double"
-    said["decomposes"] = said["decomposes"] is True  # False of a property too
+    said["decomposes"] = said["decomposes"] is True  # False for a property too
     return MethodFacts.model_validate(said)
 
 
 def _tolerance(cls) -> dict:
-    """As it stands in the class; none where its parameters decide it."""
+    """The value set in the class; none if it depends on the parameters."""
     return asdict(cls.tolerance if isinstance(cls.tolerance, Tolerance) else NONE)
 
 
 def know(store: Store) -> list[str]:
-    """Make what a run recorded of its own methods and scenarios known, without running anything of
-    it.
+    """Register the recorded methods and scenarios of a run without running any of its code.
 
-    Returns notices: which files are not run, and of which methods nothing is recorded.
+    Returns notices: the files that are not run, and the methods without a record.
     """
     config = store.config
     try:
         said = Declared.model_validate(store.facts.get("declared", {}))
     except ValidationError as error:
         raise StoreError(
-            f"{store.folder / 'manifest.json'} declares methods or scenarios in a form that cannot"
-            f" be read: {error.error_count()} wrong field(s) in 'declared'. Take the run anew from"
-            " where it was made."
+            f"{store.folder / 'manifest.json'} declares methods or scenarios in a form that "
+            f"cannot be read: {error.error_count()} invalid field(s) in 'declared'. Copy the run "
+            "again from its source."
         ) from error
     known = registry.methods()
     for name, facts in said.methods.items():
@@ -144,22 +145,20 @@ def _notices(config: RunConfig, known) -> list[str]:
     files = ", ".join((*config.method_files, *config.scenario_files))
     if not files:
         return []
-    said = [
-        f"The run names Python files of its own ({files}); they are not run. --trust runs them."
-    ]
+    said = [f"The run names its own Python files ({files}); they are not run. --trust runs them."]
     unknown = dict.fromkeys(
         name for name in map(name_of, config.asked) if name and name not in known
     )
     said += [
-        f"Method '{name}' is not known here; its declaration is unknown (its tolerance is taken as"
-        f" none); pass --trust to load {files}."
+        f"Method '{name}' is not known here; its declaration is unknown (its tolerance is "
+        f"taken as none); pass --trust to load {files}."
         for name in unknown
     ]
     return said
 
 
 def _stand_in(name: str, facts: MethodFacts) -> type[Method]:
-    """A method that says what was recorded of it, and answers nothing."""
+    """A method with the recorded declaration that answers no queries."""
     said = facts.model_dump()
     said["tolerance"] = Tolerance(**said["tolerance"])
     said.update(
@@ -174,7 +173,7 @@ def _stand_in(name: str, facts: MethodFacts) -> type[Method]:
 
 
 def recorded(name: str) -> bool:
-    """Is a method known by its record alone?"""
+    """Whether a method is known only from its record."""
     return getattr(registry.methods().get(name), "__module__", "") == MODULE
 
 

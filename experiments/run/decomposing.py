@@ -1,4 +1,4 @@
-"""From meshes to convex pieces, and to the certified truth of the cases about them."""
+"""Decompose meshes into convex pieces, and certify the truth of the cases for the pieces."""
 
 from __future__ import annotations
 
@@ -25,12 +25,18 @@ from .piece_truth import FILES
 from .processes.pool import Loss, Task, mixed, run
 from .progress import stage
 
-DECOMPOSE_SECONDS, LABEL_SECONDS = 4.0, 0.2  # of one body, of one case: only what progress expects
+# estimates for one body and for one case, used only for progress
+DECOMPOSE_SECONDS, LABEL_SECONDS = (
+    4.0,
+    0.2,
+)
 
 
 @dataclass(frozen=True)
 class Item:
-    """A case about pieces. fault: why a mesh of it has none; it stands in the query as it is."""
+    """A case for pieces. fault: why one of its meshes has no pieces; the query then contains the
+    mesh unchanged.
+    """
 
     case: str
     query: Query
@@ -41,8 +47,8 @@ class Item:
 def make(store: Store, config: RunConfig, workers: int) -> None:
     """Write pieces.parquet and pieces-bodies.parquet: a row per case with a mesh.
 
-    Neither is there where no method decomposes, or no case has a mesh. Shards that are there
-    already are not made again.
+    Neither is written if no method decomposes, or no case has a mesh. Existing shards are not made
+    again.
     """
     cases, bodies = store.read("cases.parquet"), store.read("bodies.parquet")
     about = about_meshes(cases, bodies)
@@ -58,7 +64,7 @@ def make(store: Store, config: RunConfig, workers: int) -> None:
 
 
 def wanted(config: RunConfig) -> bool:
-    """Whether a method of the run answers about the pieces of a mesh."""
+    """Whether a method of the run answers for the pieces of a mesh."""
     return any(method.decomposes for spec in config.asked for method in registry.make(spec))
 
 
@@ -69,14 +75,14 @@ def about_meshes(cases: pd.DataFrame, bodies: pd.DataFrame) -> pd.DataFrame:
 
 
 def meshes_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> list[Body]:
-    """The meshes that the cases are about, each once."""
+    """The distinct meshes of the cases."""
     used = bodies.body.isin({*cases.body_a, *cases.body_b})
     return [body_of(row) for row in bodies[used & (bodies.kind == "mesh")].itertuples()]
 
 
 def pieces_of(mesh: Body) -> tuple[Body, str]:
-    """What methods put in place of a mesh, and ""; the mesh itself and the reason if it has
-    none.
+    """The pieces that methods use in place of a mesh, and ""; or the mesh itself and the reason
+    why it has none.
     """
     try:
         return ofg.decompose(mesh), ""
@@ -85,7 +91,7 @@ def pieces_of(mesh: Body) -> tuple[Body, str]:
 
 
 def precision_of(query: Query, precision: str) -> str:
-    """ "float32" if that of the case is, and every vertex of the pieces is a float32 number."""
+    """ "float32" if the case is in float32 and every vertex of the pieces is a float32 number."""
     exact = all(np.array_equal(snap(b.vertices), b.vertices) for b in (query.a, query.b))
     return precision if exact else "float64"
 
@@ -130,12 +136,12 @@ def _decomposed(store: Store, config: RunConfig, workers: int, meshes) -> dict:
 
 
 def open_mesh(_):
-    """For a Task whose items are meshes."""
+    """Return a function for a Task whose items are meshes."""
     return pieces_of
 
 
 def lost_mesh(mesh: Body, loss: Loss) -> tuple[Body, str]:
-    """In place of `pieces_of` a mesh whose process ended."""
+    """The replacement for `pieces_of` a mesh whose process ended."""
     return mesh, f"decomposing stopped: {loss.detail}"
 
 
@@ -162,7 +168,7 @@ def _certified(store: Store, config: RunConfig, workers: int, items: list[Item])
 
 
 def _run(title: str, store: Store, tasks, workers: int, limit: float, total: int, each: float):
-    """each: seconds that an item is expected to take."""
+    """each: expected seconds for an item."""
     todo = sum(len(task.items) for task in tasks)
     with stage(title, total, total - todo, each * todo / workers) as advance:
         run(mixed(tasks), workers, limit, store.path("workers.log"), advance)
@@ -180,12 +186,12 @@ def _open_label(_):
 
 
 def no_pieces(item: Item) -> Truth:
-    """The truth of a case one of whose meshes has no pieces."""
+    """The truth of a case with a mesh that has no pieces."""
     return Truth("uncertain", reason=f"no convex pieces: {item.fault}")
 
 
 def place(item: Item) -> dict:
-    """The columns of a row of pieces.parquet that say what it is about."""
+    """The columns of a row of pieces.parquet that identify its case."""
     return {
         "case": item.case,
         "body_a": item.query.a.digest,

@@ -22,12 +22,12 @@ from .progress import stage
 
 REDRAWS = 50
 CHUNK = 16  # cases labelled by one process
-DRAWING = "drawing"  # what a process is marked with while a scenario's own code runs
+DRAWING = "drawing"  # the mark of a process while a scenario's own code runs
 
 
 @dataclass(frozen=True)
 class Slot:
-    """The place of a case: which draw of which level of which scenario."""
+    """The place of a case: the draw, the level and the scenario."""
 
     scenario: str
     level: float
@@ -36,8 +36,8 @@ class Slot:
 
 @dataclass(frozen=True)
 class Unlabelled:
-    """A slot whose label was lost, and why: its case is drawn again, in a worker, as everything of
-    a scenario is.
+    """A slot whose label was lost, and why: its case is drawn again, in a worker, like all work
+    of a scenario.
     """
 
     slot: Slot
@@ -58,7 +58,7 @@ def slots(config: RunConfig) -> list[Slot]:
 
 
 def make_cases(store: Store, config: RunConfig, workers: int) -> None:
-    """Write cases.parquet and bodies.parquet; shards that are there already are not made again."""
+    """Write cases.parquet and bodies.parquet; existing shards are not made again."""
     all_slots = slots(config)
     chunks = [all_slots[i : i + CHUNK] for i in range(0, len(all_slots), CHUNK)]
     facts = {
@@ -123,7 +123,7 @@ def _label(seed: int, slot: Slot, label) -> tuple[dict, list[dict]]:
 
 
 def _draw(seed: int, slot: Slot, attempt: int = 0) -> Case:
-    """The case of a slot. ScenarioError, which names it, whatever the scenario raises."""
+    """The case of a slot. ScenarioError, which names it, for any error of the scenario."""
     mark(DRAWING)
     try:
         return families.get(slot.scenario).case(seed, slot.level, slot.index, attempt)
@@ -141,8 +141,8 @@ def _uncertain(seed: int, lost: Unlabelled) -> tuple[dict, list[dict]]:
 
 
 def _lost(seed: int, item: Slot | Unlabelled, loss: Loss) -> Instead:
-    """Have an uncertain case made of a slot whose label ended its process. ScenarioError where it
-    was the drawing that did.
+    """Make an uncertain case of a slot whose label ended its process. ScenarioError if the
+    drawing ended it.
     """
     if loss.mark == DRAWING or isinstance(item, Unlabelled):
         raise _no_case(
@@ -155,8 +155,9 @@ def _lost(seed: int, item: Slot | Unlabelled, loss: Loss) -> Instead:
 
 def _no_case(seed: int, slot: Slot, why: str) -> ScenarioError:
     return ScenarioError(
-        f"Scenario '{slot.scenario}' drew no case at level {slot.level:g}, index {slot.index}, seed"
-        f" {seed}: {why}. Mend its `generate`, or leave the scenario or the level out."
+        f"Scenario '{slot.scenario}' drew no valid case at level {slot.level:g}, index "
+        f"{slot.index}, seed {seed}: {why}. Correct its `generate`, or leave out the scenario or "
+        "the level."
     )
 
 

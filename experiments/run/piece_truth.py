@@ -1,4 +1,4 @@
-"""The certified truth of the convex pieces that some methods put in place of meshes."""
+"""The certified truth of the convex pieces that some methods use in place of meshes."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from baselines import registry
 from .folder.store import Store
 
 FILES = ("pieces.parquet", "pieces-bodies.parquet")
-NAME = "CoACD pieces"  #: whose row the pieces' own error is: no engine
+NAME = "CoACD pieces"  #: whose row is the pieces' own error: not an engine
 CLAIMS = ("precision", "label", "t_lo", "t_hi", "start", "end", "gap", "touching")
 PIECES, MESH = "pieces", "mesh"
 
 
 def read(store: Store) -> pd.DataFrame | None:
-    """The rows of pieces.parquet; None of a run without them, which is judged by the meshes."""
+    """The rows of pieces.parquet; None for a run without them, which is judged by the meshes."""
     return store.read(FILES[0]) if store.has(FILES[0]) else None
 
 
 def put(table: pd.DataFrame, pieces: pd.DataFrame | None) -> pd.DataFrame:
-    """Answers with their cases' truth, and that of the pieces where a method was asked about them.
+    """Answers with the truth of their cases, or of the pieces if a method answered for those.
 
-    table: rows of observations.parquet merged with cases. truth: PIECES, or MESH where the bodies
-    are judged as they are given. case_label: the label by the bodies as they are given.
+    table: rows of observations.parquet merged with cases. truth: PIECES, or MESH if the original
+    bodies are the reference. case_label: the label for the original bodies.
     """
     table = table.assign(case_label=table.label)
     if pieces is None:
@@ -38,7 +38,7 @@ def put(table: pd.DataFrame, pieces: pd.DataFrame | None) -> pd.DataFrame:
 
 
 def decomposes(label: str) -> bool:
-    """As the method declares it; False for one whose file is not there any more."""
+    """As the method declares; False if its file no longer exists."""
     try:
         return bool(registry.make(label)[0].decomposes)
     except (ValueError, ImportError):
@@ -46,9 +46,10 @@ def decomposes(label: str) -> bool:
 
 
 def own_error(cases: pd.DataFrame, pieces: pd.DataFrame) -> pd.DataFrame:
-    """What the pieces say of the meshes, as rows of observations.parquet under NAME.
+    """The answers of the pieces compared with the meshes, as rows of observations.parquet under
+    NAME.
 
-    Of the cases where both are certified; without those whose pieces touch, which say nothing.
+    Only cases with both certified; without those whose pieces touch, which decide nothing.
     """
     certain = cases.case[cases.label != "uncertain"]
     said = pieces[(pieces.label != "uncertain") & ~pieces.touching.astype(bool)]
@@ -66,26 +67,26 @@ def own_error(cases: pd.DataFrame, pieces: pd.DataFrame) -> pd.DataFrame:
 
 
 def note(table: pd.DataFrame) -> str:
-    """The sentences under a table that say who is judged by the truth of pieces; "" if nobody
-    is.
+    """The sentences under a table that name the methods judged by the truth of pieces; "" if
+    there are none.
     """
     methods = table.method[table.truth == PIECES].unique()
     if not len(methods):
         return ""
     own = (
-        f" {NAME} is no engine: the certified answers of the pieces, judged by the meshes, where "
-        "both are certified."
+        f" {NAME} is not an engine: the certified answers for the pieces, judged by the meshes, "
+        "if both are certified."
         if (table.method == NAME).any()
         else ""
     )
     return (
-        " Judged on meshes by the certified truth of the pieces that they are decomposed into: "
+        " On meshes, judged by the certified truth of the pieces into which they are decomposed: "
         f"{', '.join(methods)}.{own}"
     )
 
 
 def as_cases(cases: pd.DataFrame, pieces: pd.DataFrame) -> pd.DataFrame:
-    """Rows of cases.parquet, in the order of `pieces`, about the pieces and with their truth.
+    """Rows of cases.parquet, in the order of `pieces`, with the pieces as bodies and their truth.
 
     Their bodies are in pieces-bodies.parquet. size and faces stay those of the meshes.
     """

@@ -1,4 +1,4 @@
-"""How far a run is and how long it will take: a bar per stage on a terminal, a line now and then
+"""Progress of a run and its remaining time: a bar per stage on a terminal, occasional lines
 elsewhere.
 """
 
@@ -21,37 +21,37 @@ from rich.progress import (
 from rich.text import Text
 
 console = Console(stderr=True)
-LINE = 60.0  # seconds between lines where there is no terminal
+LINE = 60.0  # seconds between lines without a terminal
 
 
 def say(text: str) -> None:
-    """A notice to the reader, beside the tables."""
+    """Print a notice to the user on stderr."""
     console.print(text, markup=False, highlight=False)
 
 
 class Forecast:
-    """Seconds left of a run of several stages, from what was planned for each and how fast the work
-    has gone so far.
+    """Remaining seconds of a run of several stages, from the plan for each and the speed of the
+    work so far.
 
-    plan: stage -> seconds that its work is expected to take. A stage that knows better when it
-    begins says so. What is measured takes the place of the plan as the stage goes on; the stages to
-    come are scaled by how far off the plan was in those before.
+    plan: stage -> expected seconds of work. A stage may give a better estimate when it begins. As a
+    stage progresses, measurements replace its plan; later stages are scaled by the error of the
+    plan so far.
     """
 
     def __init__(self, plan: dict[str, float], clock: Callable[[], float] = time.monotonic):
         self.plan, self.clock = dict(plan), clock
         self.done = dict.fromkeys(plan, 0.0)  # share of each stage
         self.spent = dict.fromkeys(plan, 0.0)
-        self.already = dict.fromkeys(plan, 0.0)  # share that an earlier, interrupted run has done
+        self.already = dict.fromkeys(plan, 0.0)  # share done by an earlier, interrupted run
         self.foreseen: dict[
             str, tuple[float, float]
-        ] = {}  # stage -> seconds left, and when that was said
+        ] = {}  # stage -> remaining seconds, and when they were estimated
         self.current, self.since = None, 0.0
-        self.history: list[tuple[float, float]] = []  # seconds gone, seconds said to be left
+        self.history: list[tuple[float, float]] = []  # seconds elapsed, estimated seconds left
 
     def begin(self, name: str, seconds: float | None = None, skipped: float = 0.0) -> None:
-        """seconds: a better plan than there was. skipped: the share that an earlier, interrupted
-        run has done.
+        """seconds: a better estimate than the plan. skipped: the share done by an earlier,
+        interrupted run.
         """
         self.plan[name] = self.plan.get(name, 0.0) if seconds is None else seconds
         self.done[name], self.already[name], self.spent[name] = skipped, skipped, 0.0
@@ -59,8 +59,8 @@ class Forecast:
         self.current, self.since = name, self.clock()
 
     def foresee(self, name: str, seconds: float) -> None:
-        """What is left of a stage, from somebody who knows better than plan and pace do; until it
-        is said anew, or the stage begins.
+        """Set the remaining time of a stage from a better estimate than plan and pace give;
+        valid until it is set again, or the stage begins.
         """
         self.foreseen[name] = seconds, self.clock()
 
@@ -88,8 +88,8 @@ class Forecast:
         return total
 
     def _slowness(self) -> float:
-        """Seconds taken over seconds planned so far, which the stages to come are scaled by; within
-        a factor of 4, as plans are rough.
+        """Seconds taken over seconds planned so far, by which later stages are scaled; within a
+        factor of 4, because plans are rough.
         """
         planned = sum(
             self.plan[name] * (self.done[name] - self.already[name])
@@ -97,11 +97,11 @@ class Forecast:
             if self.spent[name]
         )
         spent = sum(self.spent.values())
-        trust = min(1.0, spent / 10.0)  # nothing is to be learnt from the first seconds
+        trust = min(1.0, spent / 10.0)  # the first seconds are not informative
         return 1.0 + trust * (min(4.0, max(0.25, spent / planned)) - 1.0) if planned > 0 else 1.0
 
     def _pace(self, planned: float) -> float:
-        """Seconds for the whole current stage: the plan at its beginning, what was measured once a
+        """Seconds for the whole current stage: the plan at its beginning, the measurement once a
         tenth of it is done.
         """
         gone = self.done[self.current] - self.already[self.current]
@@ -111,8 +111,8 @@ class Forecast:
         return trust * self.spent[self.current] / gone + (1 - trust) * planned
 
     def at_half(self) -> tuple[float, float] | None:
-        """What stood on the screen to be left in the middle of the time that the run took, and what
-        was; None for a run of a moment.
+        """The displayed and the actual remaining time in the middle of the run; None for a very
+        short run.
         """
         gone = sum(self.spent.values())
         told = [(at, left) for at, left in self.history if at <= gone / 2]
@@ -139,7 +139,7 @@ _running: Forecast | None = None
 
 @contextlib.contextmanager
 def forecast(plan: dict[str, float]) -> Iterator[Forecast]:
-    """The stages inside are those of one run, whose time left is shown beside each."""
+    """Treat the stages inside as those of one run, whose remaining time is shown beside each."""
     global _running
     before, _running = _running, Forecast(plan)
     try:
@@ -152,8 +152,8 @@ def forecast(plan: dict[str, float]) -> Iterator[Forecast]:
 def stage(
     title: str, total: float, done: float = 0.0, seconds: float | None = None
 ) -> Iterator[Callable[[float], None]]:
-    """Yields advance(n), n of `total`. done: what was there already. seconds: what the stage is
-    expected to take, where it knows.
+    """Yields advance(n), n of `total`. done: finished earlier. seconds: the expected duration of
+    the stage, if known.
     """
     whole = _running or Forecast({title: seconds or 0.0})
     whole.begin(title, seconds, done / total if total else 1.0)

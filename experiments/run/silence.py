@@ -1,5 +1,5 @@
-"""Methods of a run that answered nothing, each with its reason: empty cells of a table do not say
-why.
+"""Report methods that answered nothing in a run, with the reason: empty table cells do not
+explain it.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from .folder.store import Store
 
 
 def warnings(store: Store) -> list[str]:
-    """A sentence for each reason, which names the methods that answered none of their cases
-    for it.
+    """A sentence for each reason, which names the methods that answered none of their cases for
+    that reason.
     """
     rows = store.read("observations.parquet")
     answered = rows.assign(ok=rows.status == "ok").groupby("method", sort=False).ok.any()
@@ -27,7 +27,7 @@ def warnings(store: Store) -> list[str]:
 
 
 def _reason(rows: pd.DataFrame) -> str:
-    """The commonest status and its words, in short."""
+    """The most frequent status and its detail, in short."""
     (status, detail), n = next(
         iter(
             rows.groupby(["status", "detail"], sort=False)

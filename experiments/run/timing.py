@@ -1,19 +1,19 @@
-"""How long methods take: interleaved rounds on one pinned core, each method's floor, the same cases
+"""Timing of methods: interleaved rounds on one pinned core, a floor for each method, the same cases
 for all.
 
-Protocol. Cases are put into bins by question, size and situation (how far apart or how deep; hit or
-clear). In a round, every method answers every case of a bin once, each call timed by itself, so
-that poses change from call to call (a repeated pose flatters by up to 3x). Methods take turns
-within a round, in an order drawn anew for each round, so that a slow minute of the machine falls on
-all of them and none always finds the bodies in the cache that another left there (in a fixed order
-k = 4 came out slower than k = 8 behind it). Taking turns call by call was left out, because each
-call would then find the instruction cache full of another engine. The floor of a method is its own
-cheapest call (of n substeps: one) on two tetrahedra far apart, timed between its cases: what the
-binding and an early way out cost. A net time of n substeps therefore still holds the binding's cost
-of n - 1 calls. A method that takes longer than `seconds` for its rounds of a bin takes part in
-fewer of them, spread evenly, but in no fewer than 3; one that takes longer for a single round is
-warmed up once. Only cases that a method answered (status ok) are timed; building (`prepare`) is
-timed once per case.
+Protocol. Cases are grouped into bins by question, size and situation (gap or depth; hit or clear).
+In a round, every method answers every case of a bin once, each call timed separately, so that poses
+change from call to call (a repeated pose flatters by up to 3x). Methods take turns within a round,
+in a new random order for each round, so that a slow minute of the machine affects all of them and
+no method always finds the bodies in the cache that another left there (in a fixed order k = 4 came
+out slower than k = 8 behind it). Turns do not alternate call by call, because each call would then
+find the instruction cache full of another engine. The floor of a method is its own cheapest call
+(of n substeps: one) on two tetrahedra far apart, timed between its cases: the cost of the binding
+and of an early exit. A net time of n substeps therefore still contains the binding's cost of n - 1
+calls. A method that takes longer than `seconds` for its rounds of a bin takes part in fewer of
+them, spread evenly, but in at least 3; one that takes longer for a single round is warmed up once.
+Only cases that a method answered (status ok) are timed; building (`prepare`) is timed once per
+case.
 """
 
 from __future__ import annotations
@@ -51,21 +51,20 @@ SIZES = (
     (151, "151-700"),
     (701, "over 700"),
 )
-NEAR = 1e-2  # of gap over size: what lies closer to touching is timed apart from the rest
+NEAR = 1e-2  # of gap over size: cases closer to contact are timed separately
 LEAST_ROUNDS = 3
 START = 1.2  # seconds: a process that imports every engine (0.8 in `quick`, 2.3 in `standard`)
 COLUMNS = ["question", "faces", "situation", "method", "case", "build_ns", "rounds_ns"]
 PROBE = "(noise probe)"
 FLOOR = "(floor)"
-# where the process died: a row of this method, in place of the case the method that it was at and
-# the reason
+# if the process died: a row of its current method, with the reason in place of the case
 LOST = "(lost)"
 
 
 @dataclass(frozen=True)
 class Bin:
-    """Cases of one question, one range of faces (of the larger body), one situation. methods: label
-    -> ids of the cases it answered.
+    """Cases of one question, one range of faces (of the larger body), one situation. methods:
+    label -> ids of the cases it answered.
     """
 
     question: str
@@ -120,8 +119,8 @@ def _shard(store: Store, config: RunConfig, bin_: Bin) -> Shard:
 
 
 def choose(store: Store, config: RunConfig) -> list[Bin]:
-    """The first cases of each bin, spread evenly over its scenarios and levels; the same for every
-    method.
+    """The first cases of each bin, spread evenly over its scenarios and levels; the same for
+    every method.
     """
     cases, observations = store.read("cases.parquet"), store.read("observations.parquet")
     objects = {case.id: case for case, _ in cases_of(cases, store.read("bodies.parquet"))}
@@ -148,9 +147,10 @@ def choose(store: Store, config: RunConfig) -> list[Bin]:
 
 
 def expected(store: Store, bins: list[Bin], timing: TimingChoice) -> list[float]:
-    """Seconds that each bin will take, from how long each method took to answer its cases once: by
-    medians, as the first answer of a process waits for an import, and a body is built once for
-    several methods (sums foretold 883 s of `standard`, medians 285, it took 317).
+    """Expected seconds for each bin, from the time that each method took to answer its cases
+    once: by medians, because the first answer of a process includes an import, and a body is
+    built once for several methods (sums predicted 883 s of `standard`, medians 285, it took
+    317).
     """
     pace = store.read(*PACES).set_index(["method", "case"])
     seconds = []
@@ -168,8 +168,8 @@ def expected(store: Store, bins: list[Bin], timing: TimingChoice) -> list[float]
 def foresee(
     bins: dict[str, list[int]], paces: dict[str, pd.DataFrame], timing: TimingChoice
 ) -> float:
-    """As `expected`, before all has been asked. bins: cases of each bin, by question. paces: of
-    methods, what they have answered so far: a row per case, with its question, and NaN where it was
+    """As `expected`, before all methods have answered. bins: cases of each bin, by question.
+    paces: of methods, their answers so far: a row per case, with its question, and NaN if it was
     not answered.
     """
     total = START * sum(map(len, bins.values()))
@@ -192,7 +192,7 @@ def foresee(
 
 def rounds_within(once: float, timing: TimingChoice, warmup: int = 0) -> int:
     """Rounds for a method whose cases of a bin take `once` seconds: all, or as many as fit, but
-    never fewer than LEAST_ROUNDS.
+    at least LEAST_ROUNDS.
     """
     return min(timing.rounds, max(LEAST_ROUNDS, int(timing.seconds / max(once, 1e-9)))) + (
         warmup if once <= timing.seconds else min(1, warmup)
@@ -200,7 +200,7 @@ def rounds_within(once: float, timing: TimingChoice, warmup: int = 0) -> int:
 
 
 def size_of(faces: pd.Series) -> pd.Series:
-    """The range of faces that each number falls into."""
+    """The range of faces to which each number belongs."""
     return pd.cut(
         faces,
         [least for least, _ in SIZES] + [np.inf],
@@ -217,8 +217,8 @@ def situation_of(cases: pd.DataFrame) -> pd.Series:
 
 
 def measure_bin(store: Store, config: RunConfig, bin_: Bin, seconds: float) -> list[tuple]:
-    """Rows of COLUMNS for one bin. Where a method fails, or the process dies or hangs, the bin is
-    timed again without the method that it was at.
+    """Rows of COLUMNS for one bin. If a method fails, or the process dies or hangs, the bin is
+    timed again without the current method.
     """
     lost = []
     while True:
@@ -230,7 +230,7 @@ def measure_bin(store: Store, config: RunConfig, bin_: Bin, seconds: float) -> l
             found.extend,
             lambda item, loss: Lost(loss.mark, f"{loss.status}, {loss.detail}"),
         )
-        # one worker: nothing else of ours runs while times are taken
+        # one worker: no other process of ours runs while times are measured
         run([task], 1, seconds, store.path("workers.log"), prepare=partial(load_files, config))
         if not isinstance(found[0], Lost):
             return found[0] + lost
@@ -255,19 +255,19 @@ def measure_bin(store: Store, config: RunConfig, bin_: Bin, seconds: float) -> l
 
 @dataclass(frozen=True)
 class Lost:
-    """What a bin gives in place of times: the method it was at, and why it failed."""
+    """The result of a bin without times: the method in progress, and why it failed."""
 
     label: str
     why: str
 
 
 class _Failed(Exception):
-    """A method raised while it was timed; the message says what."""
+    """A method raised during timing; the message gives the error."""
 
 
 @contextlib.contextmanager
 def _turn(label: str):
-    """What is done on behalf of one method. Whatever it raises is its own."""
+    """A turn on behalf of one method. Any error in it is attributed to that method."""
     mark(label)
     try:
         yield
@@ -288,8 +288,8 @@ def _open(timing: TimingChoice):
 
 
 def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
-    """Rows of COLUMNS for one bin. The process is marked with the label of each method before its
-    turn.
+    """Rows of COLUMNS for one bin. The process is marked with the label of each method before
+    its turn.
     """
     groups = []
     for label, answered in bin_.methods.items():
@@ -304,7 +304,7 @@ def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
     for r in range(timing.warmup + timing.rounds):
         for i in order.permutation(len(groups)):
             group, kept = groups[i], r - timing.warmup
-            # to which the caches do not matter: one warm-up is enough
+            # the caches do not matter to it: one warm-up is enough
             slow = once[i] > timing.seconds
             if (
                 slow
@@ -323,10 +323,10 @@ def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
 
 
 def _round(group: list[Call], warm: bool, times: dict[Call, list[int]] | None) -> float:
-    """Ask each call once, and append what it took to `times`. Returns the seconds of all."""
+    """Run each call once, and append its duration to `times`. Returns the seconds of all."""
     begin = perf_counter_ns()
     if warm:
-        group[-1].ask()  # not timed: it meets caches full of another engine
+        group[-1].ask()  # not timed: its caches are full of another engine's data
     for call in group:
         start = perf_counter_ns()
         call.ask()
@@ -337,7 +337,7 @@ def _round(group: list[Call], warm: bool, times: dict[Call, list[int]] | None) -
 
 
 def _takes_part(r: int, wanted: int, rounds: int) -> bool:
-    """Whether a method that takes part in `wanted` of the rounds does so in round r: they are
+    """Whether a method that takes part in `wanted` of the rounds takes part in round r: they are
     spread evenly.
     """
     return (r + 1) * wanted // rounds > r * wanted // rounds
@@ -354,8 +354,8 @@ class Call:
 
 
 def _prepare(label: str, bin_: Bin, answered: set[str]) -> list[Call]:
-    """The calls of one method, with its floor before every fourth case, so that both are timed in
-    the same state of the caches.
+    """The calls of one method, with its floor before every fourth case, so that both are timed
+    with the caches in the same state.
     """
     (method,) = registry.make(label)
     cheapest = type(method)(**{**method.parameters, **method.cheapest})
@@ -370,8 +370,8 @@ def _prepare(label: str, bin_: Bin, answered: set[str]) -> list[Call]:
 
 
 def floor_query(question: str) -> Query:
-    """Two unit tetrahedra a thousand apart, moving (if they do) by a tenth: the least a method can
-    be asked.
+    """Two unit tetrahedra a thousand apart, moving (if they do) by a tenth: the cheapest query
+    for a method.
     """
     corner = Body.convex(np.vstack([np.zeros(3), np.eye(3)]), "tetrahedron")
     motion = (
@@ -383,8 +383,8 @@ def floor_query(question: str) -> Query:
 
 
 def _noise_probe():
-    """The same arithmetic every time: how much its time varies is how much the machine was
-    disturbed.
+    """The same arithmetic every time: the variation of its duration measures the disturbance of
+    the machine.
     """
     block = np.arange(4096, dtype=np.float64)
     return lambda: float(np.dot(block, block)) + sum(range(200))

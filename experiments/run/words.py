@@ -1,11 +1,11 @@
-"""What methods say of themselves, made fit for a table: short, one line, valid text, and never an
-error of ours.
+"""Messages of methods made fit for a table: short, one line, valid text, and never an error of
+their own.
 """
 
 from __future__ import annotations
 
-LONGEST = 200  # characters of an error's words
-_READ = 4000  # characters of them that are looked at
+LONGEST = 200  # characters of an error's message
+_READ = 4000  # characters of it that are examined
 
 
 def of_error(error: BaseException) -> str:
@@ -15,7 +15,7 @@ def of_error(error: BaseException) -> str:
 
 
 def text_of(error: BaseException) -> str:
-    """What it says, or that it cannot say it."""
+    """Its text, or a note that its text cannot be read."""
     try:
         return plain(str(error))
     except BaseException as worse:  # a method's own __str__
@@ -23,5 +23,5 @@ def text_of(error: BaseException) -> str:
 
 
 def plain(text: str) -> str:
-    """A plain str that every file can hold; what is no valid Unicode is written as an escape."""
+    """A plain str that every file can hold; invalid Unicode is escaped."""
     return str.encode(text[:_READ], "utf-8", "backslashreplace").decode()

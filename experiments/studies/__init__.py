@@ -1,1 +1,1 @@
-"""Experiments that are no run of cases: sizes and k, choice of units, stepping, the native lane."""
+"""Studies that are not runs of cases: sizes and k, choice of units, stepping, the native lane."""

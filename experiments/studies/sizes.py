@@ -1,9 +1,9 @@
-"""Misses and operations by size, depth and k, which no run of the catalogue holds: python -m
+"""Misses and operations by size, depth and k, which no run of the catalogue covers: python -m
 experiments.studies.sizes [--cases 400]
 
-Pairs of random hulls of 12 to 5,120 faces. Overlaps at a shallow and at a large depth, certified:
-what each k misses, and the operations counted. Flights of the same hulls, with and without a turn:
-operations alone. The rows go to results/sizes.
+Pairs of random hulls of 12 to 5,120 faces. Certified overlaps at a shallow and at a large depth:
+the misses of each k, and the operations counted. Flights of the same hulls, with and without
+rotation: operations only. The rows go to results/sizes.
 """
 
 from __future__ import annotations
@@ -41,9 +41,7 @@ def hulls(faces: int, i: int) -> tuple[ofg.Body, ofg.Body]:
 def overlaps(
     faces: int, low: float, high: float, n: int, rng: np.random.Generator
 ) -> Iterator[Query]:
-    """Pairs placed by contact feature at a depth of low to high; only those that are certified to
-    overlap.
-    """
+    """Pairs placed by contact feature at a depth of low to high; only certified overlaps."""
     for i in range(n):
         a, b = hulls(faces, i)
         turn, position, _ = touching(rng, a, b, -np.exp(rng.uniform(np.log(low), np.log(high))))
@@ -53,8 +51,8 @@ def overlaps(
 
 
 def flights(question: str, faces: int, n: int, rng: np.random.Generator) -> Iterator[Query]:
-    """A starts a radius away and flies two radii at a feature of B, or in any direction; a turn is
-    of one radian.
+    """A starts a radius away and moves two radii towards a feature of B, or in any direction; a
+    rotation is one radian.
     """
     for i in range(n):
         a, b = hulls(faces, i)
@@ -69,7 +67,7 @@ def flights(question: str, faces: int, n: int, rng: np.random.Generator) -> Iter
 
 
 def ask(query: Query, faces: int, depth: str, case: int) -> Iterator[dict]:
-    """A row per k below the number of faces, for k = all faces, and for all repairs."""
+    """A row for each k below the number of faces, for k = all faces, and for all repairs."""
     variants = [{"k": k} for k in (*(k for k in KS if k < faces), faces)] + [{"repairs": "all"}]
     for options in variants:
         answer = ofg.ask(query, **options)
@@ -86,9 +84,9 @@ def ask(query: Query, faces: int, depth: str, case: int) -> Iterator[dict]:
 
 
 def measure(cases: int, seed: int) -> pd.DataFrame:
-    """All rows. k is 0 where it is adapted (repairs)."""
+    """All rows. k is 0 if it is adaptive (repairs)."""
     rng, rows = np.random.default_rng(seed), []
-    with stage("ask hulls of each size", len(FACES)) as advance:
+    with stage("query hulls of each size", len(FACES)) as advance:
         for faces in FACES:
             n = cases if faces < 5120 else max(cases // 4, 1)  # a label takes longer there
             for depth, (low, high) in DEPTHS.items():
@@ -116,8 +114,8 @@ def misses(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def operations(rows: pd.DataFrame) -> pd.DataFrame:
-    """Operations of the article, by question, faces and k: the largest and the mean share of each
-    of the article's bounds.
+    """Operations of the article, by question, faces and k: the largest and the mean share of
+    each of the article's bounds.
     """
     part = rows[~rows.repairs]
     shares = part[["question", "faces", "k"]].assign(
@@ -172,7 +170,7 @@ def main(
             help="overlaps for each size and depth; a quarter of it at 5,120 faces, and of flights",
         ),
     ] = 400,
-    seed: Annotated[int, typer.Option(help="of bodies and poses")] = 2004,
+    seed: Annotated[int, typer.Option(help="seed of bodies and poses")] = 2004,
     out: Annotated[Path, typer.Option(help="folder")] = Path("results", "sizes"),
 ) -> None:
     run(out, cases, seed)

@@ -1,11 +1,11 @@
-"""Chooses the unit of length of every best-effort method: python -m experiments.studies.tuning
+"""Choose the unit of length of every best-effort method: python -m experiments.studies.tuning
 
-Engines have absolute tolerances, so the unit is a setting of theirs, and best effort sets it. The
-rule was written before the counts: over all families, on a seed that no run uses, the unit with the
-fewest wrong answers, then the fewest unanswered, then the nearest to 1 (`baselines.units.best`).
-Every method that is `Normalised` is asked in each of UNITS; its substeps take its unit. Uncertain
-cases are left out, and touching ones, where neither answer is wrong; and bodies of more than FACES
-faces, whose size and not whose unit is at issue.
+Engines have absolute tolerances, so the unit is one of their settings, which the best effort
+chooses. The rule was written before the counts: over all families, on a seed that no run uses, the
+unit with the fewest wrong answers, then the fewest unanswered, then the nearest to 1
+(`baselines.units.best`). Every method that is `Normalised` is run in each of UNITS; its substeps
+use its unit. Excluded are uncertain cases; touching ones, where neither answer is wrong; and bodies
+of more than FACES faces, for which size and not the unit matters.
 The counts are written beside `baselines/units.py`, which reads the unit from them.
 """
 
@@ -30,7 +30,7 @@ from experiments.truth import label_many
 
 SEED = 71  #: of no preset and no experiment
 UNITS = (1.0, 4.0, 32.0, 256.0, 1024.0, 2.0**15, 2.0**18)
-CASES = {"overlap": 20, "translation": 4, "motion": 4}  #: a level
+CASES = {"overlap": 20, "translation": 4, "motion": 4}  #: per level
 FACES = 1000
 
 
@@ -80,7 +80,7 @@ def counts(names: list[str], workers: int) -> pd.DataFrame:
         chunks = [asked[i : i + answering.CHUNK] for i in range(0, len(asked), answering.CHUNK)]
         tasks += [Task(_open, (name, unit, limits), chunk, rows.extend, _lost) for chunk in chunks]
     seconds, total = limits.build_seconds + limits.query_seconds, sum(len(t.items) for t in tasks)
-    with tempfile.TemporaryDirectory() as folder, stage("ask in each unit", total) as advance:
+    with tempfile.TemporaryDirectory() as folder, stage("query in each unit", total) as advance:
         run(mixed(tasks), workers, seconds, Path(folder, "log"), advance)
     return pd.DataFrame([_count(*key, rows, truth) for key, rows in found.items()])
 

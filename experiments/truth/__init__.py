@@ -1,4 +1,4 @@
-"""Certified labels: `prove` proposes, `check` decides, `label` does both."""
+"""Certified labels: `prove` proposes a label, `check` decides, `label` does both."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ __all__ = [
 
 
 def label(query: Query) -> Truth:
-    """Prove, then check. A label that its own checker refuses becomes "uncertain" with the
-    checker's reason.
+    """Prove, then check. A label that the checker refuses becomes "uncertain" with the checker's
+    reason.
     """
     return label_many([query])[0]
 
 
 def label_many(queries: Iterable[Query]) -> list[Truth]:
-    """`label` for each query, in one process; the checker's doubles are batched over all of
-    them.
+    """`label` for each query, in one process; the checker's double arithmetic is batched over
+    all of them.
     """
     queries = list(queries)
     truths = [prove(q) for q in queries]

@@ -1,4 +1,6 @@
-"""Is a run what its configuration makes? Files, rows, cases, labels and, if wanted, answers."""
+"""Verify that a run matches its configuration: files, rows, cases, labels and, on request,
+answers.
+"""
 
 from __future__ import annotations
 
@@ -18,14 +20,14 @@ def verify(
     workers: int | None = None,
     seed: int | None = None,
 ) -> Findings:
-    """Check a finished run. ask: ask the methods again about so many cases drawn by chance (-1:
-    all). trust: run the Python files that its configuration names. Writes nothing into the folder.
+    """Check a finished run. ask: repeat the methods' answers for this many random cases (-1:
+    all). trust: run the Python files named by its configuration. Writes nothing into the folder.
     """
     found, config = Findings(), store.config
     files.check(store, found)
     rows.name_preset(config, found)
     if config.stepping:
-        found.note("The stepping track has no certified labels: nothing but its files is checked.")
+        found.note("The stepping track has no certified labels: only its files are checked.")
         return found
     if trust:
         load_files(config)

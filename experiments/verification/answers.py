@@ -1,5 +1,5 @@
-"""Methods asked again, in processes of their own as in a run, and compared with what is
-recorded.
+"""Answers repeated by the methods, in separate processes as in a run, and compared with the
+recorded ones.
 """
 
 from __future__ import annotations
@@ -27,8 +27,9 @@ from .findings import Findings
 
 
 def check(config, frames, names, count: int, seed, workers, own, found: Findings) -> None:
-    """Refuses by case and method. count: of cases, -1 for all. seed: of the draw; None: by chance,
-    so that nobody knows beforehand which cases will be asked."""
+    """Findings are by case and method. count: of cases, -1 for all. seed: of the random
+    selection; None: unpredictable, so that nobody can know the cases beforehand.
+    """
     seed = secrets.randbits(32) if seed is None else seed
     n = len(names) if count < 0 else min(count, len(names))
     drawn = {names[i] for i in np.random.default_rng(seed).choice(len(names), n, replace=False)}
@@ -39,14 +40,14 @@ def check(config, frames, names, count: int, seed, workers, own, found: Findings
     if n < len(names):
         tenth = max(1, len(names) // 100)
         found.note(
-            f"Asked again about {n} of {len(names)} cases, drawn with --ask-seed {seed}. If "
-            f"{tenth} cases had altered answers, this finds one with the probability "
-            f"{chance(len(names), tenth, n):.2f}."
+            f"Repeated the answers for {n} of {len(names)} cases, selected with --ask-seed "
+            f"{seed}. If {tenth} cases had altered answers, this would find one with the "
+            f"probability {chance(len(names), tenth, n):.2f}."
         )
 
 
 def chance(cases: int, altered: int, asked: int) -> float:
-    """Probability that at least one of the altered cases is among those asked."""
+    """Probability that at least one of the altered cases is among those selected."""
     return 1 - math.comb(cases - altered, asked) / math.comb(cases, asked)
 
 
@@ -56,7 +57,10 @@ def _asked(config, cases, workers, own, found: Findings) -> list[dict]:
         try:
             methods = registry.make(spec)
         except ValueError:
-            found.note(f"{spec} was not asked again: it is no method of this package (--trust).")
+            found.note(
+                f"The answers of {spec} were not repeated: it is not a method of this "
+                "package (--trust)."
+            )
             continue
         for m in methods:
 
@@ -76,7 +80,7 @@ def _asked(config, cases, workers, own, found: Findings) -> list[dict]:
             ]
     total = sum(len(task.items) for task in tasks)
     seconds = config.build_seconds + config.query_seconds
-    with tempfile.TemporaryDirectory() as folder, stage("ask again", total) as advance:
+    with tempfile.TemporaryDirectory() as folder, stage("repeat answers", total) as advance:
         run(tasks, workers, seconds, Path(folder, "log"), advance, own and partial(load_files, own))
     return rows
 
@@ -89,7 +93,7 @@ def _compared(rows, recorded: pd.DataFrame, found: Findings) -> None:
         if then is None:
             continue
         if row["status"] == "unsupported" != then.status and "install" in row["detail"]:
-            found.note(f"{row['method']} was not asked again: {row['detail']}")
+            found.note(f"The answers of {row['method']} were not repeated: {row['detail']}")
             continue
         found.asked += 1
         if _said(then.status, then.hit, then.time) == _said(row["status"], row["hit"], row["time"]):
@@ -100,13 +104,12 @@ def _compared(rows, recorded: pd.DataFrame, found: Findings) -> None:
         else:
             found.refuse(
                 f"{row['case']} and {row['method']}",
-                f"recorded {_word(then.status, then.hit, then.time)}, and asked again "
+                f"recorded {_word(then.status, then.hit, then.time)}, but repeated "
                 f"{_word(row['status'], row['hit'], row['time'])}",
             )
     for name, n in loose.items():
         found.note(
-            f"{n} answers of {name} differ; its engine does not repeat itself, so that this "
-            "proves nothing."
+            f"{n} answers of {name} differ; its engine is not repeatable, so this proves nothing."
         )
     found.notes[:] = dict.fromkeys(found.notes)
 

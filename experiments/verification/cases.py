@@ -36,7 +36,7 @@ SAID = ("label", "start", "end", "touching", "reason")
 
 
 def check(store: Store, config, slots, names, workers, own, found: Findings) -> None:
-    """own: the configuration whose files a process may run, or None. Refuses by case."""
+    """own: the configuration whose files a process may run, or None. Findings are by case."""
     items = [(name, slots[name]) for name in names]
     chunks = [items[i : i + CHUNK] for i in range(0, len(items), CHUNK)]
     results = [[] for _ in chunks]
@@ -68,9 +68,9 @@ def _gather(results, store: Store, found: Findings) -> None:
             found.refuse(f"body {row.body}", f"its name '{row.name}' is not the scenario's")
     if undrawn:
         found.note(
-            f"{len(undrawn)} cases were not drawn again, as their scenarios are not of this "
-            f"package: {', '.join(sorted(set(undrawn)))}. Their labels were proved again of "
-            "the recorded bodies. If you trust the Python files of this run, add --trust."
+            f"{len(undrawn)} cases were not drawn again, because their scenarios are not of this "
+            f"package: {', '.join(sorted(set(undrawn)))}. Their labels were proved again for the "
+            "recorded bodies. If you trust the Python files of this run, add --trust."
         )
 
 
@@ -104,7 +104,7 @@ def _drawn(scenario, slot: Slot, row, bodies, seed: int, wrong: list[str]):
     """The query of the case as its scenario draws it, and its bodies' names."""
     attempt = row["attempt"]
     if not (attempt == int(attempt) and 0 <= attempt < REDRAWS):
-        raise ValueError(f"attempt {attempt} is no draw")
+        raise ValueError(f"attempt {attempt} is not a valid draw")
     for earlier in range(int(attempt)):
         truth = label(scenario.case(seed, slot.level, slot.index, earlier).query)
         if not scenario.useless(truth):
@@ -138,7 +138,7 @@ def _body(body: Body, row, side: str, wrong: list[str]) -> None:
 
 
 def _recorded(row, bodies, wrong: list[str]) -> Query:
-    """The recorded query of bodies made anew from their rows, so that they are bodies."""
+    """The recorded query with bodies made again from their rows, and thus valid."""
     found = [bodies[row[f"body_{side}"]] for side in ("a", "b")]
     made = [_made(body) for body in found]
     ((case, _),) = cases_of(pd.DataFrame([row]), pd.DataFrame(found).drop_duplicates("body"))
@@ -165,7 +165,9 @@ def _recorded(row, bodies, wrong: list[str]) -> Query:
 
 
 def _made(row) -> Body:
-    """By the constructors that check: BodyError or ValueError for an open surface and the like."""
+    """Made by the constructors that check: BodyError or ValueError for an open surface and the
+    like.
+    """
     v, f = (np.reshape(row[column], (-1, 3)) for column in ("vertices", "faces"))
     if row["kind"] == "mesh":
         return Body.mesh(v, f, row["name"])
@@ -182,15 +184,13 @@ def _truth(row) -> Truth:
     try:
         certificate = json.loads(row["certificate"])
     except (ValueError, TypeError, RecursionError):
-        certificate = "no JSON"
+        certificate = "not JSON"
     claims = [row[c] for c in ("label", "t_lo", "t_hi", "start", "end", "gap", "reason")]
     return Truth(*claims, certificate, bool(row["touching"]))
 
 
 def prove(query: Query, row, wrong: list[str]) -> None:
-    """Have the recorded truth checked, and the query labelled anew; what differs goes into
-    wrong.
-    """
+    """Check the recorded truth and label the query again; differences are added to `wrong`."""
     truth, fresh = _truth(row), label(query)
     (verdict,) = check_many([(query, truth)])
     if not verdict.ok:

@@ -1,4 +1,4 @@
-"""The files of a run against the hashes in its manifest."""
+"""The files of a run compared with the hashes in its manifest."""
 
 from __future__ import annotations
 
@@ -9,16 +9,20 @@ from .findings import Findings
 
 
 def check(store: Store, found: Findings) -> None:
-    """Refuses a file that changed or is missing. One that the manifest does not list is a note."""
+    """Refuses a file that changed or is missing. A file that the manifest does not list becomes
+    a note.
+    """
     hashes = _recorded(store, found)
     if hashes is None:
         return
     now = manifest.hashes(store.folder)
     for name, digest in hashes.items():
         if name not in now:
-            found.refuse(name, "the file is missing, and the manifest lists it")
+            found.refuse(name, "the file is missing, but the manifest lists it")
         elif now[name] != digest:
-            found.refuse(name, "the file changed after the run: its hash is not the manifest's")
+            found.refuse(
+                name, "the file changed after the run: its hash differs from the manifest's"
+            )
     if other := sorted(set(now) - set(hashes)):
         found.note(f"Not listed in manifest.json, and not checked: {', '.join(other)}.")
 

@@ -1,4 +1,4 @@
-"""What verification found."""
+"""The findings of a verification."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ SHOWN = 40
 
 @dataclass
 class Findings:
-    """refused: one sentence for each thing that is not as it should be. notes: what was not
-    checked, or cannot be. labels: of the cases in which nothing is wrong, how many have which
-    label; pieces: the same of the cases about pieces of meshes.
+    """refused: one sentence for each fault. notes: what was not checked, or cannot be. labels:
+    for the cases without a fault, the number of each label; pieces: the same for the cases about
+    pieces of meshes.
     """
 
     refused: list[str] = field(default_factory=list)
@@ -46,7 +46,7 @@ class Findings:
             if p
             else []
         )
-        asked = [f"{self.asked} answers asked again."] if self.asked else []
+        asked = [f"{self.asked} answers repeated."] if self.asked else []
         more = len(self.refused) - SHOWN
         return "\n".join(
             [

@@ -17,12 +17,12 @@ from .findings import Findings
 
 
 def check(config, frames, names, workers: int, found: Findings) -> None:
-    """names: the cases to look at. Refuses by case and by body."""
+    """names: the cases to check. Findings are by case and by body."""
     if "pieces" not in frames:
         if _wanted(config):
             found.note(
-                f"It has no {FILES[0]}, as runs had none once: its methods that decompose "
-                "meshes are judged by the meshes."
+                f"It has no {FILES[0]}, like older runs: its methods that decompose meshes are "
+                "judged by the meshes."
             )
         return
     if _wanted(config) is False:
@@ -42,7 +42,7 @@ def check(config, frames, names, workers: int, found: Findings) -> None:
 
 
 def _wanted(config) -> bool | None:
-    """Whether a method decomposes; None where a method's file is not loaded."""
+    """Whether a method decomposes; None if a method's file is not loaded."""
     try:
         return decomposing.wanted(config)
     except ValueError:
@@ -55,9 +55,9 @@ def _rows(pieces, wanted: list[str], found: Findings) -> None:
         if counts[name] != 1:
             found.refuse(name, f"{FILES[0]} has {counts[name]} rows of it, not 1")
     for name in counts.keys() - set(wanted):
-        found.refuse(name, f"{FILES[0]} has it, and it is no case about a mesh")
+        found.refuse(name, f"{FILES[0]} contains it, but it is not a case about a mesh")
     if list(pieces.case) != [name for name in wanted if name in counts]:
-        found.refuse(FILES[0], "the order of its cases is not that of cases.parquet")
+        found.refuse(FILES[0], "the order of its cases differs from cases.parquet")
 
 
 def _decomposed(meshes, config, workers: int) -> dict:
@@ -84,7 +84,7 @@ def _bodies(recorded, items, found: Findings) -> None:
     fresh = {body.digest: body for i in items for body in (i.query.a, i.query.b)}
     counts = Counter(recorded.body)
     for digest in counts.keys() - fresh.keys():
-        found.refuse(f"body {digest}", f"{FILES[1]} has it, and no case is about it")
+        found.refuse(f"body {digest}", f"{FILES[1]} contains it, but no case uses it")
     rows = {row["body"]: row for row in recorded.to_dict("records")}
     for digest, body in fresh.items():
         if counts[digest] != 1:
@@ -92,7 +92,7 @@ def _bodies(recorded, items, found: Findings) -> None:
         elif wrong := [c for c, v in body_row(body).items() if not same(rows[digest][c], v)]:
             found.refuse(
                 f"body {digest}",
-                f"{', '.join(wrong)} in {FILES[1]} is not what it is decomposed into",
+                f"{', '.join(wrong)} in {FILES[1]} differs from its decomposition",
             )
 
 
@@ -125,7 +125,7 @@ def _open(_):
 def _looked_at(given) -> tuple[str, str, list[str]]:
     item, row = given
     wrong = [
-        f"{column} is not that of the pieces that its meshes are decomposed into"
+        f"{column} differs from that of the pieces of its meshes"
         for column, value in decomposing.place(item).items()
         if not same(row[column], value)
     ]

@@ -1,4 +1,6 @@
-"""The rows of a run against its configuration: none missing, doubled or of another kind."""
+"""The rows of a run compared with its configuration: none missing, duplicated or of another
+kind.
+"""
 
 from __future__ import annotations
 
@@ -74,23 +76,23 @@ STATUS = ("ok", "error", "timeout", "unsupported")
 
 
 def name_preset(config, found: Findings) -> None:
-    """Say which configuration of the package this is: a smaller run that agrees with itself
-    is one.
+    """Report which configuration of the package this is: a smaller run that agrees with itself
+    is also valid.
     """
     names = [*configuration.presets(), *configuration.experiments()]
     differ = {name: config.differences(configuration.load(name)) for name in names}
     best = min(differ, key=lambda name: len(differ[name]))
     if differ[best]:
         found.note(
-            f"Its configuration is none of this package's; nearest is {best}, from which it "
-            f"differs in: {', '.join(differ[best])}."
+            f"Its configuration is not one of this package's; the nearest is {best}, from which "
+            f"it differs in: {', '.join(differ[best])}."
         )
     else:
         found.note(f"Its configuration is {best}, as in this package.")
 
 
 def read(store: Store, found: Findings) -> dict[str, pd.DataFrame] | None:
-    """The tables by name, every column there; None where one cannot be used. Raises StoreError."""
+    """The tables by name, with every column; None if one cannot be used. Raises StoreError."""
     wanted = {"cases": CASES, "bodies": BODIES, "observations": ANSWERS}
     wanted |= {"timings": TIMES} if store.has("timings.parquet") else {}
     if any(map(store.has, piece_truth.FILES)):
@@ -102,7 +104,7 @@ def read(store: Store, found: Findings) -> dict[str, pd.DataFrame] | None:
             found.refuse(file, "it is missing")
             continue
         try:
-            # each wrong row is to be named, not the first alone
+            # each wrong row is to be named, not only the first
             frames[name] = store.read(file, checked=False)
         except (OSError, ValueError, TypeError) as error:
             found.refuse(file, f"it cannot be read ({given.reason(error)})")
@@ -115,7 +117,7 @@ def read(store: Store, found: Findings) -> dict[str, pd.DataFrame] | None:
         if missing := [c for c in columns if c not in frames[name]]:
             found.refuse(file, f"it lacks {', '.join(missing)}")
         if extra := [c for c in frames[name] if c not in columns]:
-            found.refuse(file, f"it has columns that no run has: {', '.join(map(str, extra))}")
+            found.refuse(file, f"it has unknown columns: {', '.join(map(str, extra))}")
     return (
         frames
         if len(frames) == len(wanted)
@@ -125,7 +127,7 @@ def read(store: Store, found: Findings) -> dict[str, pd.DataFrame] | None:
 
 
 def expected(config, cases: pd.DataFrame, found: Findings) -> dict[str, Slot]:
-    """The places that the configuration asks for, by the name of their case."""
+    """The slots required by the configuration, by the name of their case."""
     slots = []
     for choice in config.scenarios:
         known = families.scenarios().get(choice.name)
@@ -136,11 +138,13 @@ def expected(config, cases: pd.DataFrame, found: Findings) -> dict[str, Slot]:
 
 
 def check(config, frames, slots, found: Findings) -> list[str]:
-    """Refuses by rows. Returns the cases that are there once, in their order, to be looked at."""
+    """Findings are by row. Returns the cases that occur once, in their order, for further
+    checks.
+    """
     counts = Counter(frames["cases"].case)
     _counted("cases.parquet", counts, slots, found)
     if list(counts) != [name for name in slots if name in counts]:
-        found.refuse("cases.parquet", "the order of the cases is not the configuration's")
+        found.refuse("cases.parquet", "the order of the cases differs from the configuration's")
     _bodies(frames, found)
     _answers(config, frames["observations"], slots, found)
     if "timings" in frames:
@@ -154,7 +158,9 @@ def _counted(file: str, counts: Counter, wanted, found: Findings) -> None:
             found.refuse(_name(name), f"{file} has {counts[name]} rows of it, not 1")
     for name in counts:
         if name not in wanted:
-            found.refuse(_name(name), f"{file} has it, and the configuration does not ask for it")
+            found.refuse(
+                _name(name), f"{file} contains it, but the configuration does not require it"
+            )
 
 
 def _name(name) -> str:
@@ -167,7 +173,7 @@ def _bodies(frames, found: Findings) -> None:
         if n > 1:
             found.refuse(f"body {body}", f"bodies.parquet has {n} rows of it")
         if body not in used:
-            found.refuse(f"body {body}", "no case is about it")
+            found.refuse(f"body {body}", "no case uses it")
 
 
 def _answers(config, answers: pd.DataFrame, slots, found: Findings) -> None:
@@ -176,23 +182,23 @@ def _answers(config, answers: pd.DataFrame, slots, found: Findings) -> None:
     except ValueError:
         methods = list(dict.fromkeys(answers.method))
         found.note(
-            "It has methods of files that were not run (--trust runs them); whether a method "
+            "It has methods from files that were not run (--trust runs them); whether a method "
             "of its configuration is missing was not checked."
         )
     wanted = {(name, method): None for method in methods for name in slots}
     counts = Counter(zip(answers.case, answers.method))
     _counted("observations.parquet", counts, wanted, found)
     if list(counts) != [pair for pair in wanted if pair in counts]:
-        found.refuse("observations.parquet", "the order of the answers is not the configuration's")
+        found.refuse(
+            "observations.parquet", "the order of the answers differs from the configuration's"
+        )
     for row in answers.itertuples():
         if wrong := _odd(row):
             found.refuse(f"{row.case} and {row.method}", wrong)
 
 
 def _odd(row) -> str:
-    """What no answer can be: a status that there is not, a time without a hit or outside the
-    step.
-    """
+    """An impossible answer: an unknown status, or a time without a hit or outside the step."""
     hit = None if pd.isna(row.hit) else bool(row.hit)
     if row.status not in STATUS:
         return f"the status '{row.status}' does not exist"
@@ -200,7 +206,9 @@ def _odd(row) -> str:
         return f"the status {row.status} does not go with {'no answer' if hit is None else 'one'}"
     if not pd.isna(row.time) and not (hit and 0 <= row.time <= 1):
         return f"the time {row.time} does not go with the answer"
-    return "" if (row.status == "ok") == (row.detail == "") else "the detail is not the status's"
+    return (
+        "" if (row.status == "ok") == (row.detail == "") else "the detail does not match the status"
+    )
 
 
 def _times(config, frames, found: Findings) -> None:
@@ -221,6 +229,6 @@ def _times(config, frames, found: Findings) -> None:
         if doubled or not (own or row.method in asked):
             found.refuse(where, "timings.parquet has rows of it that no run makes")
         elif not own and (case is None or bin_ != (case.question, str(case.bin), case.situation)):
-            found.refuse(where, "it was timed in a bin that is not its own")
+            found.refuse(where, "it was timed in a bin to which it does not belong")
         elif not (row.build_ns >= 0 and len(row.rounds_ns)):
-            found.refuse(where, "its times are no times of such a run")
+            found.refuse(where, "its times cannot come from such a run")

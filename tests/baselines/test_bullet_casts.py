@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from itertools import product
 
 import pytest
 
@@ -13,7 +12,9 @@ from baselines.native import library
 from ofg import Motion, Pose, Query
 
 CASTS = ("subsimplex", "gjk", "continuous")
-built = pytest.mark.skipif(bool(library.missing("libbullet")), reason="built by: make native")
+built = pytest.mark.skipif(
+    bool(library.missing("libbullet")), reason="built by: ofg-bench native --build"
+)
 
 
 def verdict(name: str, query: Query):
@@ -70,7 +71,7 @@ def test_a_cast_that_does_not_converge_is_halved():
 def test_what_is_not_built_says_how_to_build_it(monkeypatch, tmp_path):
     monkeypatch.setattr(library, "FOLDER", tmp_path)
     cls = registry.methods()["bullet-continuous-cast"]
-    assert "make native" in registry.available(cls) and registry.version(cls) == "absent"
+    assert "native --build" in registry.available(cls) and registry.version(cls) == "absent"
     with pytest.raises(MissingEngine, match="libbullet-dev"):
         library.load.__wrapped__("libbullet")
 
@@ -91,12 +92,15 @@ def test_the_version_names_bullet_and_the_plugin():
 
 @built
 @pytest.mark.parametrize("place", [(-5, 0.3, 0.1), (-4, 2.5, 0), (0.9, 0.7, 0.5)])
-def test_the_native_lane_says_the_same(place):
-    query = sweep("translation", "convex", place, (8, 0, 0))
-    rows = native.run([query], rounds=1, warmup=0)
-    rows = rows[rows.engine.str.contains("-cast")].set_index("engine")
-    for cast, end in product(CASTS, ("", "-exact")):
-        name = f"bullet-{cast}-cast{end}"
-        said, expected = rows.loc[name], verdict(name, query)
+@pytest.mark.parametrize("question, angle", [("translation", 0), ("motion", 2.5)])
+def test_the_native_lane_says_the_same(place, question, angle):
+    straight = sweep("translation", "convex", place, (8, 0, 0))
+    query = replace(straight, question=question, motion=Motion((8, 0, 0), (0, 1, 2), angle))
+    taken = native.run([query], rounds=1, warmup=0)
+    rows = taken.answers.join(taken.contestants, on="id")
+    rows = rows[rows.engine.str.startswith("bullet") & (rows.isa == "generic")].set_index("engine")
+    assert len(rows) == (6 if question == "translation" else 2)
+    for name, said in rows.iterrows():
+        expected = verdict(name, query)
         assert bool(said.hit) == expected.hit
         assert said.time == pytest.approx(expected.time, abs=1e-6, nan_ok=True)

@@ -8,10 +8,10 @@ import pytest
 
 from baselines import conformance, registry
 
-HEAD_ON, TURNS = "meets a head-on sweep at its time", "sees what a turning bar meets"
-TOWARDS = "meets what moves towards it"
-CONTAINED = "a contained body is seen by solid methods alone"
-B_TURNS, ABOUT = "sees what B meets as it turns", "turns about the point that it is told"
+HEAD_ON, TURNS = "hits a head-on sweep at its time", "detects what a rotating bar hits"
+TOWARDS = "detects a body that moves towards it"
+CONTAINED = "contained bodies are detected by solid methods only"
+B_TURNS, ABOUT = "detects what B hits as it rotates", "rotates about the given point"
 
 # (method, property): what is wrong with the engine, measured. A defect that is gone fails the test
 # (strict).

@@ -58,9 +58,9 @@ def test_each_fault_is_named(changes, words):
 
 
 def test_what_is_no_method_is_named():
-    assert "no class of a method" in declaration.fault(
+    assert "not the class of a method" in declaration.fault(
         int
-    ) and "no class of a method" in declaration.fault("mine")
+    ) and "not the class of a method" in declaration.fault("mine")
 
 
 def test_a_file_with_such_a_method_is_refused_by_name(tmp_path):

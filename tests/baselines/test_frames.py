@@ -81,7 +81,7 @@ def test_two_turning_bodies_are_no_question_about_one():
     query = Query(
         "motion", body("convex"), body("mesh"), motion=Motion(angle=1), motion_b=Motion(angle=1)
     )
-    with pytest.raises(Unsupported, match="both bodies turn"):
+    with pytest.raises(Unsupported, match="both bodies rotate"):
         one_mover(query)
 
 
@@ -115,7 +115,7 @@ def test_who_does_not_declare_two_movers_is_never_given_them():
     assert method.given.motion_b.rests and method.given.motion.displacement[0] == -2
     with pytest.raises(Unsupported, match="ready"):
         method.prepare(query)
-    with pytest.raises(Unsupported, match="both bodies turn"):
+    with pytest.raises(Unsupported, match="both bodies rotate"):
         method.ready(replace(query, motion=Motion(angle=1.0)))
     with pytest.raises(Unsupported, match="does not answer overlap"):
         method.ready(Query("overlap", cube, cube))

@@ -15,14 +15,14 @@ FAULTY = Path(__file__).with_name("faulty.py")
     "name, title, word",
     [
         ("faulty-never", "far apart is clear, deep overlap is a hit", "answered clear"),
-        ("faulty-never", "a contained body is seen by solid methods alone", "not seen"),
+        ("faulty-never", "contained bodies are detected by solid methods only", "not detected"),
         ("faulty-fickle", "gives the same answer again", "then"),
         ("faulty-careless", "refuses what it does not declare", "does not raise Unsupported"),
         ("faulty-mute", "refuses what it does not declare", "without a reason"),
-        ("faulty-late", "meets a head-on sweep at its time", "more than 0.01"),
-        ("faulty-one-eyed", "meets what moves towards it", "missed"),
-        ("faulty-spinning", "sees what B meets as it turns", "B by 1.0472: answered clear"),
-        ("faulty-spinning", "turns about the point that it is told", "A turns about (-10, 0, 0)"),
+        ("faulty-late", "hits a head-on sweep at its time", "more than 0.01"),
+        ("faulty-one-eyed", "detects a body that moves towards it", "missed"),
+        ("faulty-spinning", "detects what B hits as it rotates", "B by 1.0472: answered clear"),
+        ("faulty-spinning", "rotates about the given point", "A rotates about (-10, 0, 0)"),
         ("faulty-aborting", "far apart is clear, deep overlap is a hit", "SIGABRT"),
     ],
 )
@@ -40,7 +40,7 @@ def test_a_method_that_never_heard_of_b_moving_is_right_about_it():
         t: (ok, detail)
         for t, ok, detail in conformance.check(registry.load_file(FAULTY)["faulty-unaware"]())
     }
-    assert found["meets what moves towards it"] == (True, "")
+    assert found["detects a body that moves towards it"] == (True, "")
 
 
 def test_nothing_else_is_found():

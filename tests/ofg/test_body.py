@@ -123,7 +123,7 @@ def test_the_digest_is_of_the_content():
                 Body.from_trimesh(BOX),
                 motion=Motion(angle=1),
             ),
-            "ask 'motion'",
+            "use 'motion'",
         ),
     ],
 )

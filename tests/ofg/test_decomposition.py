@@ -91,7 +91,7 @@ def test_it_ends_after_the_time_given_also_in_a_daemon(hook, tmp_path, monkeypat
     "pieces, words",
     [
         ([CUBE], "volume of CoACD's pieces is 0.50"),
-        ([CUBE, CUBE], "leave out shell 2"),
+        ([CUBE, CUBE], "omit shell 2"),
         ([CUBE * 3], "another body"),
     ],
 )

@@ -100,15 +100,15 @@ def test_a_few_bytes_after_a_binary_stl_are_passed_over(tmp_path):
 
 
 REFUSED = {  # the second cube of the first two was dropped without a word
-    "cut_in_a_number.stl": (TWO[: TWO.rindex("vertex") - 60].encode(), "24 facets.*cut off"),
-    "cut_in_a_facet.stl": (TWO[: TWO.rindex("facet normal") + 30].encode(), "cut off"),
-    "said_more.stl": (stl(SOUP, said=20), "says 20 triangles, but it is as long as 12"),
-    "said_less.stl": (stl(SOUP, said=10), "says 10 triangles, but it is as long as 12"),
-    "cut.stl": (stl(SOUP)[:-30], "says 12 triangles, but it is as long as 11.4"),
+    "cut_in_a_number.stl": (TWO[: TWO.rindex("vertex") - 60].encode(), "24 facets.*truncated"),
+    "cut_in_a_facet.stl": (TWO[: TWO.rindex("facet normal") + 30].encode(), "truncated"),
+    "said_more.stl": (stl(SOUP, said=20), "gives 20 triangles, but its length fits 12"),
+    "said_less.stl": (stl(SOUP, said=10), "gives 10 triangles, but its length fits 12"),
+    "cut.stl": (stl(SOUP)[:-30], "gives 12 triangles, but its length fits 11.4"),
     "zero.obj": (obj(CUBE, QUADS) + b"\nf 0 1 2\n", "names vertex 0; OBJ counts from 1"),
     "beyond.obj": (obj(CUBE, QUADS) + b"\nf 1 2 99\n", "names vertex 99 of 8"),
     "back.obj": (obj(CUBE, QUADS) + b"\nf -1 -2 -9\n", "names vertex -9"),
-    "word.obj": (obj(CUBE, QUADS) + b"\nf 1 2 x\n", "names 'x' as a vertex"),
+    "word.obj": (obj(CUBE, QUADS) + b"\nf 1 2 x\n", "uses 'x' as a vertex"),
     "short.obj": (obj(CUBE, QUADS) + b"\nv 1 2\n", "fewer than three coordinates"),
     "cut.off": (off(CUBE, QUADS)[:-12], "ends before its 8 vertices and 6 faces|names a vertex"),
     "empty.off": (b"", "does not begin with OFF"),

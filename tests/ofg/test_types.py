@@ -86,7 +86,7 @@ def test_what_is_no_number(make, words):
     "error, options, words",
     [
         (TypeError, {"repairs": ["arcs"]}, ("repairs", "'arcs+containment'")),
-        (TypeError, {"repairs": None}, ("repairs", "word")),
+        (TypeError, {"repairs": None}, ("repairs", "string")),
         (ValueError, {"k": np.inf}, ("k = inf", "whole number")),
         (ValueError, {"k": np.nan}, ("k = nan", "whole number")),
         (ValueError, {"k": None}, ("k = None", "whole number")),

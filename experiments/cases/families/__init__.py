@@ -1,5 +1,5 @@
-"""The scenario families: every file of this folder that does not start with an underscore defines
-one as SCENARIO.
+"""The scenario families: every file of this folder that does not start with an underscore
+defines one as SCENARIO.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from pathlib import Path
 from baselines.registry import run_file
 from experiments.cases.scenario import Scenario
 
-GROUP = "ofg.scenarios"  # entry points of installed packages that bring scenarios
+GROUP = "ofg.scenarios"  # entry points of installed packages that provide scenarios
 
 
 @cache
 def scenarios() -> dict[str, Scenario]:
-    """All families by name, in alphabetical order, then those of installed packages. Adding one
-    means adding a file here, and nothing else.
+    """All families by name, in alphabetical order, then those of installed packages. To add a
+    family, add a file here.
     """
     found = {}
     for module in sorted(m.name for m in pkgutil.iter_modules(__path__)):
@@ -37,8 +37,8 @@ def scenarios() -> dict[str, Scenario]:
         for scenario in _entered(entry):
             if scenario.name in found:
                 raise ValueError(
-                    f"The entry point '{entry.name}' of the group {GROUP} brings a scenario"
-                    f" '{scenario.name}', a name that is taken; rename one."
+                    f"The entry point '{entry.name}' of the group {GROUP} provides a scenario "
+                    f"'{scenario.name}', a name that is taken; rename one."
                 )
             found[scenario.name] = scenario
     return found
@@ -50,8 +50,8 @@ def _entered(entry) -> list[Scenario]:
         loaded = entry.load()
     except Exception as error:
         raise ValueError(
-            f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded"
-            f" ({type(error).__name__}: {error}); mend or uninstall its package."
+            f"The entry point '{entry.name}' of the group {GROUP} cannot be loaded "
+            f"({type(error).__name__}: {error}); repair or uninstall its package."
         ) from error
     found = (
         [loaded]
@@ -69,29 +69,28 @@ def _entered(entry) -> list[Scenario]:
 
 
 def own_modules() -> set[str]:
-    """Names of the families that come with this project."""
+    """Names of the families that are part of this project."""
     return {m.name for m in pkgutil.iter_modules(__path__)}
 
 
 def get(name: str) -> Scenario:
-    """The family of that name. ValueError with the closest names where there is none."""
+    """The family of that name. ValueError with the closest names if there is none."""
     known = scenarios()
     if name in known:
         return known[name]
     close = difflib.get_close_matches(name, known, n=3, cutoff=0.4)
     hint = f"did you mean {', '.join(close)}? " if close else ""
     raise ValueError(
-        f"Scenario '{name}' is unknown; {hint}The families are: {', '.join(known)}. A scenario of"
-        " your own is given as the path of a Python file that defines SCENARIO."
+        f"Scenario '{name}' is unknown; {hint}The families are: {', '.join(known)}. Give a "
+        "scenario of your own as the path of a Python file that defines SCENARIO."
     )
 
 
 def load_file(path) -> list[Scenario]:
-    """The scenarios of a Python file outside this folder, which sets SCENARIO, or SCENARIOS
+    """Load the scenarios of a Python file outside this folder, which sets SCENARIO, or SCENARIOS
     (several); they join `scenarios()`.
 
-    ValueError where the file is missing, defines neither, or takes the name of a family of this
-    folder.
+    ValueError if the file is missing, defines neither, or uses the name of a family of this folder.
     """
     path = Path(path)
     module = run_file(path, f"Scenario file {path}", f"scenario_file_{path.stem}", "SCENARIO")

@@ -1,5 +1,5 @@
-"""After the article's scheme for concave bodies: two collections whose nearest pieces are not those
-that meet.
+"""After the article's scheme for concave bodies: two collections whose nearest pieces are not
+the ones that collide.
 """
 
 import numpy as np
@@ -36,7 +36,7 @@ def moved(body: Body, by) -> Body:
 SCENARIO = Scenario(
     name="article_pieces",
     question="overlap",
-    exposes="the choice of one pair of pieces by their centres",
+    exposes="the selection of a single pair of pieces by their centres",
     axis="signed gap / size",
     levels=(-0.01, -0.001, 0.001, 0.01),
     generate=generate,

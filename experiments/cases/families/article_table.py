@@ -1,4 +1,4 @@
-"""The article's second example: a cube floats above a table and turns by 45 degrees within one
+"""The article's second example: a cube floats above a table and rotates by 45 degrees within one
 step.
 """
 
@@ -27,10 +27,10 @@ SCENARIO = Scenario(
     name="article_table",
     question="motion",
     exposes=(
-        "selections made before the turn: the base of the cube is nearest the table, and an edge of"
-        " it strikes"
+        "selections made before the rotation: the base of the cube is nearest to the table, but "
+        "an edge of it hits"
     ),
-    axis="height above the table / side of the cube; from 0.207 on it is clear",
+    axis="height above the table / side of the cube; clear from 0.207 on",
     levels=(0.01, 0.1, 0.2, 0.25),
     generate=generate,
     precision="float32",

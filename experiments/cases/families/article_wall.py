@@ -26,8 +26,8 @@ SCENARIO = Scenario(
     name="article_wall",
     question="translation",
     exposes=(
-        "tunnelling, in the article's own words: the face is on the other side of the wall after"
-        " one time unit"
+        "tunnelling, in the article's own words: the face is on the other side of the wall after "
+        "one time unit"
     ),
     axis="travel in the step / thickness of the wall",
     levels=(2.0, 10.0, 100.0, 1000.0),

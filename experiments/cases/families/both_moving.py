@@ -1,5 +1,5 @@
-"""Two bodies fly and turn, each about its centre or another of its points, and meet or stop
-short.
+"""Two bodies translate and rotate, each about its centre or another of its points, and collide
+or stop short of contact.
 """
 
 import numpy as np
@@ -17,14 +17,15 @@ def generate(rng, level) -> Draft:
     rotation, contact, normal = touching(rng, a, b, 0.0)
     heading = -normal + 0.5 * any_direction(rng)
     travel = a.size * rng.uniform(0.5, 3.0) * heading / np.linalg.norm(heading)
-    # Who reads A's motion alone sees another approach: B has a share of it, and both drift.
+    # B makes part of the approach, and both drift: a method that reads only A's motion gets another
+    # approach.
     share, drift = rng.uniform(0.2, 0.8), a.size * any_direction(rng)
     pivot = ("centre", "point")[int(rng.random() < 0.5)]
     off = float(pivot == "point")
     arms = [off * body.size * rng.uniform(0.3, 1.0) * any_direction(rng) for body in (a, b)]
     motion = Motion((1 - share) * travel + drift, any_direction(rng), level, arms[0])
     motion_b = Motion(drift - share * travel, any_direction(rng), level, arms[1])
-    # At `time` they touch; from there both go back to the start.
+    # They touch at `time`; from that pose both are moved back to the start.
     start_a = motion.pose_at(Pose(rotation, contact), -time)
     start_b = motion_b.pose_at(Pose(), -time)
     tags = {"place": place, "turns about": pivot}
@@ -35,8 +36,9 @@ SCENARIO = Scenario(
     name="both_moving",
     question="motion",
     precision="float32",
-    exposes="methods that know one moving body, and those that read a motion as its two ends",
-    axis="angle by which each body turns, radians",
+    exposes="methods that support one moving body, and methods that reduce a motion to its two "
+    "end poses",
+    axis="angle of rotation of each body, radians",
     levels=(0.1, 0.5, 1.5, 6.0),
     generate=generate,
     redraw_if=("start-overlap",),

@@ -1,5 +1,5 @@
-"""A concave body turns about something inside its hollow: a square frame about a square peg, or a
-hook about a post.
+"""A concave body rotates about something inside its hollow: a square frame about a square peg,
+or a hook about a post.
 """
 
 import numpy as np
@@ -27,7 +27,7 @@ def generate(rng, level) -> Draft:
         )
         b = box(float(np.float32(2 * half)), float(np.float32(2 * half)), 1.0)
         start_a, start_b = Pose(), _about_z(np.pi / 4)  # the frame's sides face the diagonals
-    else:  # the post stands where the arm along x passes within the turn, or beyond the arm's end
+    else:  # the post stands in the path of the arm along x, or beyond the arm's end
         a, b = hook(form=form), box(0.0625, 0.0625, 1.0)
         angle, distance = min(rng.uniform(0.3, 0.7) * level, 1.2), 0.5 if hit else 0.875
         start_a, start_b = (
@@ -47,10 +47,10 @@ SCENARIO = Scenario(
     question="motion",
     precision="float32",
     exposes=(
-        "hull-only engines (A's hull mostly overlaps B from the start), and pieces: the right one"
-        " changes during the turn"
+        "engines that use only hulls (A's hull mostly overlaps B from the start), and the "
+        "selection of pieces: the colliding pair changes during the rotation"
     ),
-    axis="angle of the turn, radians",
+    axis="angle of rotation, radians",
     levels=(0.25, 0.5, 1.0, float(np.float32(np.pi / 2)), 6.0),
     generate=generate,
     redraw_if=("start-overlap",),

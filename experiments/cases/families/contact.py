@@ -1,4 +1,4 @@
-"""A body flies onto a feature of another, at an angle to the contact's normal, or stops just short
+"""A body moves onto a feature of another, at an angle to the contact normal, or stops just short
 of it.
 """
 
@@ -26,7 +26,8 @@ SCENARIO = Scenario(
     question="translation",
     precision="float32",
     exposes=(
-        "the error of the time of impact, by the angle between the path and the contact's normal"
+        "the error of the time of impact as a function of the angle between the path and the "
+        "contact normal"
     ),
     axis="angle to the normal, degrees",
     levels=(0.0, 30.0, 60.0, 80.0, 89.0, 89.9),

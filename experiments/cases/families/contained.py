@@ -22,7 +22,7 @@ def generate(rng, level) -> Draft:
 
 
 def inscribed_radius(body: Body) -> float:
-    """Of the largest ball about the origin inside a convex body."""
+    """Radius of the largest ball about the origin inside a convex body."""
     mesh = body.to_trimesh()
     return float(np.einsum("ij,ij->i", mesh.face_normals, mesh.triangles[:, 0]).min())
 
@@ -31,8 +31,8 @@ SCENARIO = Scenario(
     name="contained",
     question="overlap",
     precision="float32",
-    exposes="tests of surfaces alone, which see nothing when one body is wholly inside the other",
-    axis="radius of the inner body / radius of the ball that fits into the outer",
+    exposes="surface-only tests, which detect nothing when one body is wholly inside the other",
+    axis="radius of the inner body / radius of the largest ball inside the outer",
     levels=(0.9, 0.5, 0.1, 1e-2, 1e-3),
     generate=generate,
 )

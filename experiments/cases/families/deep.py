@@ -11,7 +11,7 @@ def generate(rng, level) -> Draft:
     kind = ("copy", "turned copy", "other body")[rng.integers(3)]
     b = any_convex(rng) if kind == "other body" else a
     turn = [1, 0, 0, 0] if kind == "copy" else any_rotation(rng)
-    # Without a world offset: at 1e-8 it would round the offset between the bodies away.
+    # No world offset: at 1e-8 rounding to it would remove the offset between the bodies.
     return in_world(
         rng,
         Draft(a, b, Pose(turn, level * a.size * any_direction(rng)), Pose(), tags={"kind": kind}),
@@ -24,8 +24,8 @@ SCENARIO = Scenario(
     question="overlap",
     precision="float32",
     exposes=(
-        "the degenerate case of the origin at the centre of the difference (GJK), and OFG's"
-        " selection by distance of centres"
+        "the degenerate case of GJK with the origin at the centre of the Minkowski difference, "
+        "and OFG's selection by distance of centres"
     ),
     axis="distance of the centres / size",
     levels=(0.1, 1e-2, 1e-4, 1e-8, 0.0),

@@ -1,5 +1,5 @@
-"""Two regular bodies, or two uneven ones, of a given number of faces, a little apart or a little
-inside each other.
+"""Two regular bodies, or two irregular ones, with a given number of faces, slightly apart or
+slightly penetrating.
 """
 
 from experiments.cases.placement import seat
@@ -25,8 +25,8 @@ SCENARIO = Scenario(
     question="overlap",
     precision="float32",
     exposes=(
-        "how cost grows with the number of faces, and how small a share of them a selection of k"
-        " faces is"
+        "how the cost grows with the number of faces, and how small a share of them a selection "
+        "of k faces is"
     ),
     axis="faces of each body",
     levels=(12.0, *map(float, SUBDIVISIONS)),

@@ -13,7 +13,7 @@ def generate(rng, level) -> Draft:
     s = seat(rng, any_convex(rng), any_convex(rng))
     gap = s.tags["aim"] = float(rng.choice([1e-2, 1e-4]) * rng.choice([-1, 1]) * s.size)
     # At 1e8 neighbouring float32 positions are 8 apart: both bodies get the same position, and A's
-    # vertices the gap.
+    # vertices contain the gap.
     lifted = hull_of(s.a.vertices + np.array([0, 0, gap]), s.a.name)
     where = level * any_direction(rng)
     draft = s.draft(where, where)

@@ -1,5 +1,5 @@
-"""Two convex bodies with one feature each a prescribed distance apart, or inside each other by as
-much.
+"""Two convex bodies with one feature each a prescribed distance apart, or penetrating by that
+distance.
 """
 
 from experiments.cases.placement import seat
@@ -17,8 +17,8 @@ SCENARIO = Scenario(
     question="overlap",
     precision="float32",
     exposes=(
-        "absolute and relative tolerances: a method errs from the gap on at which its own epsilon"
-        " begins"
+        "absolute and relative tolerances: a method errs below the gap at which its own epsilon "
+        "takes effect"
     ),
     axis="signed gap / size",
     levels=tuple(sign * 10.0**-e for e in (1, 2, 3, 4, 6, 8, 10, 12, 14, 16) for sign in (1, -1)),

@@ -1,5 +1,5 @@
-"""A rod makes whole turns about its own centre beside a body: the step ends in the pose in which it
-began.
+"""A rod makes whole turns about its own centre beside a body: the step ends in the pose in which
+it began.
 """
 
 import numpy as np
@@ -17,8 +17,8 @@ SCENARIO = Scenario(
     question="motion",
     precision="float32",
     exposes=(
-        "methods that know a motion by its two ends: start and end pose are the same, so nothing"
-        " seems to move"
+        "methods that reduce a motion to its two end poses: start and end pose are the same, so "
+        "nothing seems to move"
     ),
     axis="whole turns in the step",
     levels=(1.0, 2.0, 5.0, 20.0, 100.0),

@@ -1,5 +1,5 @@
-"""A body slides past another with a prescribed clearance, or scrapes it by as much, on a path
-parallel to the contact plane.
+"""A body slides past another with a prescribed clearance, or penetrates it by that depth, on a
+path parallel to the contact plane.
 """
 
 from experiments.cases.placement import seat
@@ -13,11 +13,11 @@ def generate(rng, level) -> Draft:
     x, y = rng.choice([-1, 1], 2) * rng.integers(1, 8, 2)
     clearance = s.tags["aim"] = level * s.size
     half = s.exact(x, y, 0, 1.5 * max(s.a.size, s.b.size))
-    # Closest at t = 16 / odd, not at the middle: a path sampled at i / n with an even n would look
-    # at that very instant (16 substeps then missed none of 64 scrapes, 15 missed 35).
+    # Closest at t = 16 / odd, not at the middle: a path sampled at i / n with an even n would
+    # sample that very instant (16 substeps then missed none of 64 scrapes, 15 missed 35).
     whole = half * rng.choice([27, 29, 31, 33, 35, 37]) / 16
-    # The clearance sits in B's position and the path in A's: their sum would round the clearance
-    # away.
+    # B's position contains the clearance and A's contains the path: rounding their sum would lose
+    # the clearance.
     return s.draft(-half, -clearance * s.normal, Motion(whole), finest=clearance)
 
 

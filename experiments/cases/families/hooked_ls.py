@@ -1,5 +1,5 @@
-"""Two L's, each with its arm in the corner of the other, an arm's end near the other's side or
-inside it.
+"""Two L-shaped bodies, each with its arm in the corner of the other; the end of one arm is near
+the other's side or inside it.
 """
 
 from experiments.cases.placement import in_world
@@ -15,8 +15,8 @@ def generate(rng, level) -> Draft:
     body = hook(ARM, WIDTH, form)
     far = ARM - WIDTH
     across = rng.uniform(0.1, 0.6) * far, rng.uniform(-0.7, 0.7) * WIDTH
-    # B is turned half about z; its upright stands before the end of A's foot, its foot before A's
-    # upright.
+    # B is rotated by half a turn about z; its upright stands before the end of A's foot, its foot
+    # before A's upright.
     b = Pose([0, 0, 0, 1], [far + level * body.size, *across])
     return in_world(
         rng, Draft(body, body, Pose(), b, tags={"form": form, "aim": level * body.size})
@@ -28,8 +28,8 @@ SCENARIO = Scenario(
     question="overlap",
     precision="float32",
     exposes=(
-        "the wrong piece: the pieces with the closest centres are not those that meet, and the"
-        " hulls always overlap"
+        "the selection of pieces: those with the closest centres do not collide, and the hulls "
+        "always overlap"
     ),
     axis="signed gap / size",
     levels=tuple(sign * 10.0**-e for e in (1, 2, 3, 4, 5) for sign in (1, -1)),

@@ -1,5 +1,5 @@
-"""Meshes of real objects of thousands of faces, the extreme vertex of one held near a point of the
-other's surface.
+"""Meshes of real objects with thousands of faces; the extreme vertex of one is near a point of
+the other's surface.
 """
 
 from experiments.cases.placement import in_world, touching
@@ -20,8 +20,8 @@ SCENARIO = Scenario(
     name="large_mesh",
     question="overlap",
     precision="float32",
-    exposes="cost and selection on thousands of small faces, where k of them cover next to nothing",
-    axis="signed gap / size aimed at",
+    exposes="cost and selection on thousands of small faces, of which k cover a negligible part",
+    axis="intended signed gap / size",
     levels=(0.1, -0.1, 1e-2, -1e-2, 1e-3, -1e-3),
     generate=generate,
 )

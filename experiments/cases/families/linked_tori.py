@@ -1,4 +1,6 @@
-"""Two tori linked like a chain, the tube of one near the inner side of the other, or inside it."""
+"""Two tori linked like a chain, the tube of one near the inner side of the other, or penetrating
+it.
+"""
 
 import numpy as np
 
@@ -14,9 +16,9 @@ def generate(rng, level) -> Draft:
     form, tube = ("mesh", "union")[rng.integers(2)], float(rng.choice([0.125, 0.1875, 0.25]))
     sections = int(rng.choice([8, 12, 16]))
     body = torus(RADIUS, tube, sections, AROUND, form)
-    flat = tube * np.cos(np.pi / AROUND)  # both tubes turn a flat side to the contact
-    # A about z, turned so that a flat stretch of its inner side crosses the x axis; B stands across
-    # it with a kink there.
+    flat = tube * np.cos(np.pi / AROUND)  # both tubes have a flat side at the contact
+    # A about z, rotated so that a flat stretch of its inner side crosses the x axis; B stands
+    # across it with a kink there.
     half = np.pi / sections
     wall = (RADIUS - flat) * np.cos(half)
     a = Pose([np.cos(half / 2), 0, 0, np.sin(half / 2)])
@@ -29,8 +31,8 @@ SCENARIO = Scenario(
     question="overlap",
     precision="float32",
     exposes=(
-        "concavity: hulls overlap, surfaces are linked, and only the right pieces tell whether the"
-        " solids meet"
+        "concavity: hulls overlap, surfaces are linked, and only the right pieces decide whether "
+        "the solids intersect"
     ),
     axis="signed gap / size",
     levels=tuple(sign * g for g in (0.05, 0.01, 1e-3, 1e-4, 1e-5) for sign in (1, -1)),

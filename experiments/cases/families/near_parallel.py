@@ -1,6 +1,4 @@
-"""A face on another, tilted by next to nothing, and pressed in or lifted by less than the tilt's
-own height.
-"""
+"""A face on another with a minute tilt, pressed in or lifted by less than the tilt's own height."""
 
 import numpy as np
 
@@ -11,7 +9,7 @@ from ofg import Pose
 
 KINDS = {"cubes": lambda rng: box(), "hulls": any_convex}
 PLACES = {"pressed": -1, "lifted": 1}
-SHARE = (0.2, 0.4)  # of the tilt's height that A is pressed in or lifted by
+SHARE = (0.2, 0.4)  # of the tilt's height by which A is pressed in or lifted
 
 
 def generate(rng, level) -> Draft:
@@ -22,14 +20,14 @@ def generate(rng, level) -> Draft:
     gap = PLACES[place] * rng.uniform(*SHARE) * np.ptp(heights)
     aligned = rng.random() < 0.5
     spin = IDENTITY if aligned else np.array([rng.integers(1, 8), 0, 0, rng.integers(1, 8)])
-    # B keeps the axes of the world: in no other frame does float32 hold a tilt of 1e-9
+    # B keeps the axes of the world: in no other frame can float32 represent a tilt of 1e-9
     pose_a = Pose(multiply(spin, tilt), [0, 0, gap - heights.min()])
     tags = {"kind": str(kind), "place": str(place), "aligned": "yes" if aligned else "no"}
     return Draft(a, b, pose_a, Pose(UPSIDE_DOWN), tags=tags)
 
 
 def _about_the_face(tilt: float, direction: float) -> np.ndarray:
-    """The quaternion of a turn by `tilt` about an axis in z = 0; `direction` is the axis's
+    """The quaternion of a rotation by `tilt` about an axis in z = 0; `direction` is the axis's
     angle.
     """
     half = np.tan(tilt / 2)
@@ -40,7 +38,7 @@ SCENARIO = Scenario(
     name="near_parallel",
     question="overlap",
     precision="float32",
-    exposes="GJK that stops too early: the wedge between the faces is thinner than its tolerance",
+    exposes="early termination of GJK: the wedge between the faces is thinner than its tolerance",
     axis="tilt, radians",
     levels=(1e-7, 1e-8, 3e-9, 1e-9),
     generate=generate,

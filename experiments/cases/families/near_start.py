@@ -1,4 +1,4 @@
-"""A body takes off from next to another, at a tiny gap: further into it, or away."""
+"""A body starts a tiny gap away from another and moves further into it, or away."""
 
 import numpy as np
 
@@ -25,7 +25,7 @@ SCENARIO = Scenario(
     name="near_start",
     question="translation",
     precision="float32",
-    exposes="contact at t = 0: hits taken back as resting contact, and departures called hits",
+    exposes="contact at t = 0: hits dismissed as resting contact, and departures reported as hits",
     axis="gap at the start / size",
     levels=(1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12),
     generate=generate,

@@ -1,6 +1,4 @@
-"""Two faces that are parallel, or tilted by next to nothing, with a gap between them or inside each
-other.
-"""
+"""Two faces that are parallel, or minutely tilted, with a gap between them or penetrating."""
 
 from dataclasses import replace
 
@@ -17,8 +15,8 @@ def generate(rng, level) -> Draft:
 
 
 def tilted(body: Body, slope: float) -> Body:
-    """The body with its ground face sheared by `slope` along x, not below z = 0: a pose could not
-    hold a tilt of 1e-12.
+    """The body with its bottom face sheared by `slope` along x, not below z = 0: a pose could
+    not represent a tilt of 1e-12.
     """
     v = body.vertices.copy()
     ground = v[:, 2] == 0

@@ -1,5 +1,5 @@
-"""Random bodies in random poses at a distance of their centres: the control, as most published
-comparisons are made.
+"""Random bodies in random poses at a given distance of their centres: the control, which
+resembles most published comparisons.
 """
 
 from experiments.cases.placement import any_direction, any_rotation, in_world
@@ -19,8 +19,8 @@ SCENARIO = Scenario(
     question="overlap",
     precision="float32",
     exposes=(
-        "next to nothing, and that is its use: on easy cases nearly every method is right, and"
-        " pooled rates flatter"
+        "a control: easy cases that hardly separate methods, on which nearly every method is "
+        "right and pooled rates are flattering"
     ),
     axis="distance of the centres / sum of the radii",
     levels=(0.25, 0.5, 0.75, 1.0, 1.25),

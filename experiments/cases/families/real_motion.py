@@ -1,5 +1,5 @@
-"""Meshes of real objects thrown at one another while they turn: onto a point of the surface, just
-short of it, or past.
+"""Meshes of real objects that fly at one another while rotating: onto a point of the surface,
+just short of it, or past it.
 """
 
 from experiments.cases.placement import in_world
@@ -15,8 +15,8 @@ SCENARIO = Scenario(
     name="real_motion",
     question="motion",
     precision="float32",
-    exposes="what a curved path of an uneven, concave body costs, and which pieces it really meets",
-    axis="angle of the turn, radians",
+    exposes="curved paths of irregular, concave bodies: their cost, and which pieces collide",
+    axis="angle of rotation, radians",
     levels=(0.5, 1.5, 3.0, 6.0),
     generate=generate,
     redraw_if=("start-overlap",),

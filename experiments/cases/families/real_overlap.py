@@ -1,4 +1,4 @@
-"""Meshes of real objects, convex and concave, the extreme vertex of one held near a point of the
+"""Meshes of real objects, convex and concave; the extreme vertex of one is near a point of the
 other's surface.
 """
 
@@ -28,10 +28,10 @@ SCENARIO = Scenario(
     question="overlap",
     precision="float32",
     exposes=(
-        "what uneven real triangles, concavity and many pieces do to methods that clean shapes"
-        " flatter"
+        "the effect of irregular real triangles, concavity and many pieces on methods that clean "
+        "shapes flatter"
     ),
-    axis="signed gap / size aimed at",
+    axis="intended signed gap / size",
     levels=(0.1, -0.1, 1e-2, -1e-2, 1e-3, -1e-3, 1e-4, -1e-4),
     generate=generate,
 )

@@ -1,5 +1,5 @@
-"""Meshes of real objects thrown at a point of one another's surface, from outside: right through,
-just short of it, or past.
+"""Meshes of real objects that fly from outside at a point of one another's surface: right
+through, just short of it, or past it.
 """
 
 from experiments.cases.placement import in_world
@@ -16,7 +16,7 @@ SCENARIO = Scenario(
     question="translation",
     precision="float32",
     exposes=(
-        "sweeps of real meshes: hollow bodies, pieces, and thin parts of a few uneven triangles"
+        "sweeps of real meshes: hollow bodies, pieces, and thin parts of a few irregular triangles"
     ),
     axis="travel / size of the body hit",
     levels=(2.0, 5.0, 20.0),

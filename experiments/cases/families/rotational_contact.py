@@ -1,4 +1,6 @@
-"""A body that flies and turns about its own centre meets a surface, or stops just short of it."""
+"""A body that translates and rotates about its own centre hits a surface, or stops just short of
+it.
+"""
 
 import numpy as np
 
@@ -24,8 +26,8 @@ SCENARIO = Scenario(
     name="rotational_contact",
     question="motion",
     precision="float32",
-    exposes="the error of the time of impact when the path is curved",
-    axis="angle of the turn, radians",
+    exposes="the error of the time of impact on a curved path",
+    axis="angle of rotation, radians",
     levels=(0.1, 0.5, 1.5, 3.0, 6.0, 12.0),
     generate=generate,
     redraw_if=("start-overlap",),

@@ -1,4 +1,4 @@
-"""The same contact in every unit of length: both bodies, and the gap, times one factor."""
+"""The same contact in every unit of length: both bodies and the gap, scaled by one factor."""
 
 from experiments.cases.placement import seat
 from experiments.cases.scenario import Draft, Scenario
@@ -16,8 +16,7 @@ SCENARIO = Scenario(
     question="overlap",
     precision="float32",
     exposes=(
-        "tolerances and margins in units of length: micrometres and kilometres are the same"
-        " question"
+        "tolerances and margins in units of length: micrometres and kilometres pose the same query"
     ),
     axis="factor on all lengths",
     levels=(1.0, 1e-3, 1e3, 1e-6, 1e6, 1e-9, 1e9),

@@ -1,5 +1,5 @@
-"""A body flies through a thin wall while it turns, or past the wall's rim; both ends of the step
-are clear.
+"""A body flies through a thin wall while it rotates, or past the wall's rim; both ends of the
+step are clear.
 """
 
 from dataclasses import replace
@@ -20,8 +20,8 @@ SCENARIO = Scenario(
     question="motion",
     precision="float32",
     exposes=(
-        "tunnelling of bodies that fly and turn at once: sampling, linearised paths, and what"
-        " certainty costs on both"
+        "tunnelling of bodies that translate and rotate at once: sampling, linearised paths, and "
+        "the cost of certainty on both"
     ),
     axis="travel in the step / thickness of the wall",
     levels=(2.0, 10.0, 100.0, 1e3, 1e4, 1e6, 1e9, 1e15),

@@ -1,12 +1,12 @@
-"""Needles and plates that nearly touch or just meet: bodies of extreme aspect, a gap of half their
-thickness or less.
+"""Needles and plates that nearly touch or slightly penetrate: bodies of extreme aspect ratio, a
+gap of at most half their thickness.
 """
 
 from experiments.cases.placement import seat
 from experiments.cases.scenario import Draft, Scenario
 from experiments.cases.shapes import any_convex, plate, rod
 
-PAIRS = {  # what meets, and by which features
+PAIRS = {  # the bodies, and the features in contact
     "needle on needle": "edge-edge crossing",
     "plate on needle": "edge-face",
     "body on plate": "vertex-face",
@@ -33,8 +33,8 @@ SCENARIO = Scenario(
     question="overlap",
     precision="float32",
     exposes=(
-        "edge-edge axes that get lost, and large thin faces whose centres are far from the contact"
-        " (OFG's selection)"
+        "edge-edge axes that are lost, and large thin faces whose centres are far from the "
+        "contact (OFG's selection)"
     ),
     axis="aspect: length / thickness",
     levels=(10.0, 100.0, 1e3, 1e4),

@@ -1,4 +1,4 @@
-"""The end of a turning rod passes a flat face on a circle: above the face, or into it, by a
+"""The end of a rotating rod passes a flat face on a circle: above the face, or into it, by a
 fraction of the chord's error.
 """
 
@@ -16,8 +16,8 @@ def generate(rng, level) -> Draft:
     radius = np.linalg.norm(spinner.vertices[:, :2], axis=1).max()
     tip = spinner.vertices[np.argmax(np.linalg.norm(spinner.vertices[:, :2], axis=1))]
     clearance = level * radius * turn**2 / 8
-    # The tip's circle touches the plane of the face about the middle of the turn, but not at it: a
-    # path sampled at i / n with an even n would look at that very instant (16 substeps then missed
+    # The tip's circle touches the plane of the face near the middle of the rotation, but not at it:
+    # a path sampled at i / n with an even n would sample that very instant (16 substeps then missed
     # none of 42, 15 missed 9).
     angle = np.arctan2(tip[1], tip[0]) + turn * rng.uniform(0.4, 0.6)
     block = box(0.25, float(np.float32(0.5 * turn)), 0.5)
@@ -34,8 +34,8 @@ SCENARIO = Scenario(
     question="motion",
     precision="float32",
     exposes=(
-        "the chord's error: a path of K straight pieces is off by r theta^2 / 8 K^2, and wrong"
-        " where the clearance is less"
+        "the chord's error: a path of K straight segments deviates by r theta^2 / 8 K^2, and is "
+        "wrong if the clearance is less"
     ),
     axis="signed clearance / (r theta^2 / 8)",
     levels=tuple(sign * 0.25**k for k in range(7) for sign in (1, -1)),

@@ -1,4 +1,4 @@
-"""A rod turns about its own centre and its end runs into a body at its side, or passes it; both
+"""A rod rotates about its own centre and its end hits a body at its side, or passes it; both
 ends of the step are clear.
 """
 
@@ -17,10 +17,10 @@ SCENARIO = Scenario(
     question="motion",
     precision="float32",
     exposes=(
-        "methods that linearise the path or leave the rotation out: the rod's centre does not move"
-        " at all"
+        "methods that linearise the path or ignore the rotation: the rod's centre does not move "
+        "at all"
     ),
-    axis="angle of the turn, radians",
+    axis="angle of rotation, radians",
     levels=(0.5, 1.0, 2.0, 3.0, 6.0),
     generate=generate,
     redraw_if=("start-overlap",),

@@ -1,5 +1,5 @@
-"""A thin body flies broadside through a thin wall within one step, or past its rim; when it crosses
-is drawn, both ends are clear.
+"""A thin body flies broadside through a thin wall within one step, or past its rim; the time of
+crossing is random, and both ends are clear.
 """
 
 import numpy as np
@@ -13,8 +13,8 @@ HALF_WALL = 2.0
 
 
 def generate(rng, level) -> Draft:
-    """In contact for 1 / level of the step: a path sampled in n substeps lets about 1 - n / level
-    of the bodies through.
+    """In contact for 1 / level of the step: a path sampled in n substeps misses about 1 - n /
+    level of the hits.
     """
     travel, share = rng.choice([1.0, 2.0, 4.0]), rng.choice([0.1, 0.5, 0.9])
     both = travel / level
@@ -32,7 +32,7 @@ def generate(rng, level) -> Draft:
         else np.array([HALF_WALL + body.radius * rng.uniform(1.05, 1.5), 0.0])
     )
     slant = rng.uniform(-0.5, 0.5, 2) * [through, 1]  # a body beside the rim stays beside it
-    # of the centres: contact lasts from 0.5 / level before to as much after
+    # of the centres: contact lasts from 0.5 / level before this time to 0.5 / level after it
     crossing = rng.uniform(*np.array([0.6, -0.6]) / level + [0, 1])
     # parallel to the wall within a tenth of its own thickness
     spin, tilt = (
@@ -54,8 +54,8 @@ SCENARIO = Scenario(
     question="translation",
     precision="float32",
     exposes=(
-        "tunnelling of any path that is sampled, however often: where both are thin, samples fall"
-        " beside the contact"
+        "tunnelling on any sampled path, however fine: both bodies are thin, so samples miss the "
+        "contact"
     ),
     axis="travel in the step / thickness of both",
     levels=(2.0, 5.0, 20.0, 100.0, 1e3, 1e4, 1e6),

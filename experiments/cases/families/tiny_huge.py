@@ -1,5 +1,5 @@
-"""A tiny body at a feature of a huge one, a tenth of the tiny one's size away from it or
-inside it.
+"""A tiny body at a feature of a huge one, at a gap or a depth of a tenth of the tiny body's
+size.
 """
 
 from experiments.cases.placement import seat

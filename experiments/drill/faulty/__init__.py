@@ -1,6 +1,5 @@
-"""Faulty methods, one for each way of being faulty that we know; `methods.py` is the file a
-configuration names.
+"""Faulty methods, one for each known kind of fault; a configuration names the file `methods.py`.
 
-Each must cost its own rows only. They are no attacks: a method is code that you run, with your
+Each may affect only its own rows. They are not attacks: a method is code that you run, with your
 rights (SECURITY.md).
 """

@@ -1,4 +1,4 @@
-"""What a method may return in place of a verdict."""
+"""Values that a method may return in place of a verdict."""
 
 from __future__ import annotations
 
@@ -144,7 +144,7 @@ def time_is_after(query, call):
 
 
 @kind(OK)
-def answers_in_numpy(query, call):  # which is fine
+def answers_in_numpy(query, call):  # which is allowed
     return Verdict(np.bool_(True), np.float32(0.5))
 
 

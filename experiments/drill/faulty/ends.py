@@ -1,4 +1,4 @@
-"""How a method may end its process."""
+"""Ways in which a method may end its process."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from baselines.contract import Verdict
 
 from .kind import ERROR, OK, kind, once
 
-# Bytes after which "allocates without end" gives up: the machine survives what does not stop it.
+# Bytes after which "allocates without end" stops by itself, so that the machine survives if nothing
+# else stops it.
 ENOUGH = 6 << 30
 
 

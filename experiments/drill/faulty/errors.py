@@ -1,4 +1,4 @@
-"""What a method may raise."""
+"""Exceptions that a method may raise."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .kind import ERROR, OK, kind
 
 
 class _Panic(BaseException):
-    """As pyo3 raises them where Rust panicked."""
+    """The exception that pyo3 raises when Rust panicked."""
 
 
 class _Mute(Exception):
@@ -27,7 +27,7 @@ class _NotText(Exception):
 
 
 class _Bound(Exception):
-    """It can be pickled, but not read back."""
+    """It can be pickled, but not unpickled."""
 
     def __init__(self, one, two):
         super().__init__(f"{one} {two}")
@@ -118,7 +118,7 @@ def warnings_are_errors(query, call):
 @kind(ERROR)
 def writes_to_its_query(query, call):
     for array in (query.a.vertices, query.a.faces, query.b.vertices, query.b.faces):
-        array[:] = 0  # they are read-only, and numpy says so
+        array[:] = 0  # they are read-only, and numpy raises an error
     return Verdict(True)
 
 

@@ -1,6 +1,4 @@
-"""How a method may never come back. Where the wall deadline alone ends it, it hangs at one case
-only.
-"""
+"""Ways in which a method may hang. If only the wall deadline ends it, it hangs at one case only."""
 
 from __future__ import annotations
 
@@ -26,7 +24,7 @@ def loops_in_python(query, call):
 
 @kind(TIMEOUT)
 def loops_in_c(query, call):
-    max(repeat(1))  # never looks at signals, never gives up the interpreter's lock
+    max(repeat(1))  # never handles signals, never releases the interpreter's lock
 
 
 @kind(TIMEOUT)

@@ -1,4 +1,4 @@
-"""One way of being faulty."""
+"""One kind of fault."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ KINDS: dict[str, Kind] = {}
 
 @dataclass(frozen=True)
 class Kind:
-    """act(query, call): what the method does when it is asked; call counts from 1, and is beyond 1
-    only while time is taken.
+    """act(query, call): the behaviour of the method for a query; call counts from 1, and exceeds 1
+    only during timing.
 
-    name: of the method. statuses: which its rows may have. slow: it waits until the wall deadline.
-    built: it is faulty in `prepare` already.
+    name: of the method. statuses: allowed in its rows. slow: it waits until the wall deadline.
+    built: it is already faulty in `prepare`.
     """
 
     name: str
@@ -29,7 +29,7 @@ class Kind:
 
 
 def kind(*statuses: str, slow: bool = False, built: bool = False):
-    """Keep the function as a kind; its name says what it does."""
+    """Register the function as a kind, named after it."""
 
     def keep(act):
         name = "faulty-" + act.__name__.strip("_").replace("_", "-")
@@ -40,7 +40,7 @@ def kind(*statuses: str, slow: bool = False, built: bool = False):
 
 
 def once(query: Query, call: int) -> bool:
-    """Whether to do what takes long or much: at the one question of motion of the drill's
-    configuration, not while timing.
+    """Whether to do long or large work: only for the single motion query of the drill's
+    configuration, not during timing.
     """
     return call == 1 and query.question == "motion"

@@ -1,4 +1,4 @@
-"""What a method may leave behind it: processes, threads, words, files."""
+"""Things that a method may leave behind: processes, threads, output, files."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def leaves_a_daemon(query, call):
 
 @kind(OK)
 def leaves_an_orphan(query, call):
-    """Twice forked: its parent is gone, and it has a session of its own."""
+    """Forked twice: its parent is gone, and it has its own session."""
     if once(query, call):
         child = os.fork()
         if child == 0:
@@ -70,7 +70,7 @@ def leaves_a_program(query, call):
 
 @kind(OK, ERROR)
 def child_that_returns(query, call):
-    """The child goes on as if it were the worker."""
+    """The child continues as if it were the worker."""
     if once(query, call):
         os.fork()
     return Verdict(True)

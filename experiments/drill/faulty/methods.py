@@ -18,7 +18,7 @@ from ofg import QUESTIONS
 
 
 def method(kind: Kind) -> type[Method]:
-    """The class of methods that are faulty in this way."""
+    """The class of a method with this fault."""
 
     def prepare(self, query):
         if kind.built:
@@ -31,7 +31,7 @@ def method(kind: Kind) -> type[Method]:
         kind.name,
         (Method,),
         {
-            "__module__": __name__,  # by which the registry knows a file's own methods
+            "__module__": __name__,  # by which the registry recognises a file's own methods
             "name": kind.name,
             "engine": "numpy",
             "imports": "numpy",

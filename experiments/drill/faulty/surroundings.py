@@ -1,4 +1,4 @@
-"""What a method may change around it."""
+"""Changes that a method may make to its surroundings."""
 
 from __future__ import annotations
 

@@ -12,6 +12,7 @@ import pandas as pd
 from baselines import registry
 from baselines.label import name_of
 from experiments.analysis import metrics, outcome
+from experiments.studies.native.classes import V3
 
 from .runs import (
     Missing,
@@ -71,10 +72,8 @@ def board(found: pd.DataFrame, heading: str) -> list[dict]:
         [],
     )
     judged = found[found.outcome.isin(outcome.JUDGED)]
-    wrong = (
-        judged.wrong
-        .groupby([judged.method, judged.scenario], sort=False)
-        .agg(["sum", "size", "mean"])
+    wrong = judged.wrong.groupby([judged.method, judged.scenario], sort=False).agg(
+        ["sum", "size", "mean"]
     )
     for method in found.method.unique():
         row = {"method": method, "configuration": configuration_of(method)}
@@ -143,14 +142,16 @@ def impact(runs: Runs, of: Callable) -> dict:
 
 
 def native(runs: Runs, of: Callable) -> dict:
-    found = rows(runs.file("native/native.csv"), situation="apart")
-    wide = found.pivot(index="method", columns="faces", values="native")
-    over = wide / rows(found, method=OURS).set_index("faces").native
-    return {
-        m: ", ".join(f"{faces} faces {v:.2f}" for faces, v in over.loc[m].items())
-        for m in of(found)
-        if m != OURS
-    }
+    found = runs.file("native/rows.parquet")
+    found = rows(found[found["class"].isin(["generic", V3])], situation="gap", mode="cold")
+    wide = found.pivot_table(
+        index="engine", columns=["class", "faces"], values="ns", observed=True, sort=False
+    )
+    over = wide / wide.loc[OURS]
+    told = of(found.assign(method=found.engine.astype(str)))
+    told = [m for m in told if m != OURS and "screen=" not in m and "precision=" not in m]
+    form = "{} {} faces {:.2f}".format
+    return {m: ", ".join(form(*at, v) for at, v in over.loc[m].items()) for m in told}
 
 
 def python(runs: Runs, of: Callable) -> dict:
@@ -193,7 +194,11 @@ LINES = (  # what a line is about; the table; what it says of an engine's method
         "impact/tables/impact-latest.md",
         impact,
     ),
-    (f"Time over that of {OURS}, native, pairs apart", "native/native.md", native),
+    (
+        f"Time over that of {OURS}, in C++, small gaps, by class of build",
+        "native/native.md",
+        native,
+    ),
     (
         (
             f"Net time over that of {OURS}, from Python, 0 where it is not above the method's own"

@@ -38,10 +38,7 @@ def about(runs: Runs) -> list[dict]:
                     "Misses and operations by size, depth and k (`python -m"
                     " experiments.studies.sizes`)."
                 ),
-                "bench-ofg": (
-                    "Time of OFG by step, size and k, beside the native engines (`make bench-ofg`)."
-                ),
-                "native": "Both lanes side by side: the libraries asked from C++ and from Python.",
+                "native": "OFG and the engines as C++ libraries, by size (`ofg-bench native`).",
             }.get(run, "")
         size, noise = "-", "-"
         if (folder / "observations.parquet").exists():

@@ -59,7 +59,7 @@ class Runs:
         return self._once(("known", run), lambda: ends.known(Store(self.folder / run)))
 
     def file(self, name: str) -> pd.DataFrame:
-        """A frame of the folder: sizes/sizes.parquet, native/native.csv,
+        """A frame of the folder: sizes/sizes.parquet, native/rows.parquet,
         stepping/stepping.parquet.
         """
         read = pd.read_csv if name.endswith(".csv") else pd.read_parquet

@@ -7,14 +7,7 @@ import pandas as pd
 
 from experiments.run.folder import given
 from experiments.run.folder.store import Store, StoreError
-from experiments.run.timing import FLOOR, LOST, PROBE, size_of
-
-# of experiments/native.py: ours
-NATIVE = {
-    "apart": ("overlap", "apart"),
-    "overlapping": ("overlap", "deep"),
-    "flight": ("translation", "hit"),
-}
+from experiments.run.timing import FLOOR, LOST, PROBE
 
 
 def python(store: Store, rows: pd.DataFrame) -> dict:
@@ -41,39 +34,29 @@ def python(store: Store, rows: pd.DataFrame) -> dict:
 
 
 def native(store: Store, labels: set[str]) -> dict:
-    """The native lane of a run that has a native.csv (python -m experiments.native --out RUN).
+    """The native lane of a run that has tables/native.csv (ofg-bench native RUN).
 
-    It times pairs of its own of given sizes, so no case of the run stands behind it.
+    Medians over some of its certified cases, by question, situation and range of faces.
     """
-    if not store.has("native.csv"):
+    if not store.has("tables", "native.csv"):
         return {}
     lane: dict[str, dict] = {}
     times = _native_rows(store)
-    times = times.assign(sizes=size_of(times.faces))
-    for row in times[
-        times.method.isin(labels) & times.native.notna() & times.situation.isin(NATIVE)
-    ].itertuples():
-        lane.setdefault(row.method, {"cases": [], "bins": []})["bins"].append(
-            [*NATIVE[row.situation], row.sizes, row.native]
-        )
+    for row in times[times.method.isin(labels) & times.native.notna()].itertuples():
+        place = [row.question, row.situation, row.faces, row.native]
+        lane.setdefault(row.method, {"cases": [], "bins": []})["bins"].append(place)
     return {"native": lane} if lane else {}
 
 
 def _native_rows(store: Store) -> pd.DataFrame:
-    path, wanted = (
-        store.folder / "native.csv",
-        {
-            "method": str,
-            "faces": float,
-            "native": float,
-            "situation": str,
-        },
-    )
+    path = store.folder / "tables" / "native.csv"
+    words = dict.fromkeys(("question", "situation", "faces", "method"), str)
+    wanted = {**words, "native": float}
     given.regular(path, "The file")
     try:
         return pd.read_csv(path, dtype=wanted, usecols=list(wanted))
     except (ValueError, OSError) as error:
         raise StoreError(
-            f"{path} is no table of the native lane ({given.reason(error)}). Make it again with: "
-            f"python -m experiments.native --out {store.folder}, or remove it."
+            f"{path} is no table of the native lane ({given.reason(error)}). Make it "
+            f"again with: ofg-bench native {store.folder}, or remove it."
         ) from error

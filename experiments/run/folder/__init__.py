@@ -1,1 +1,3 @@
-"""The folder of a run: its files, their columns, how they are written whole and read as data."""
+"""The folder of a run: its files, their columns, and how they are written atomically and read as
+data.
+"""

@@ -1,5 +1,5 @@
-"""Files that somebody else may have written: read whole as text or JSON, or refused in a
-sentence.
+"""Read files that may come from somebody else: completely, as text or JSON, or refuse them with
+a message.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 from rich.markup import escape
 
 MOST_TEXT = 16_000_000  #: bytes of a configuration, a manifest or a page
-MOST_CASE = 512_000_000  #: bytes of a case in a file of its own
+MOST_CASE = 512_000_000  #: bytes of a case in a separate file
 
 
 class GivenError(ValueError):
@@ -21,25 +21,27 @@ class GivenError(ValueError):
 
 
 def regular(path: Path, what: str) -> int:
-    """The bytes of a file. GivenError for a folder, a pipe or a device, at which reading would wait
-    for ever.
+    """The bytes of a file. GivenError for a folder, a pipe or a device, from which a read could
+    block forever.
     """
     try:
         found = os.stat(path)
     except (OSError, ValueError) as error:
         raise GivenError(f"{what} {shown(path)} cannot be opened: {reason(error)}.") from error
     if not stat.S_ISREG(found.st_mode):
-        raise GivenError(f"{what} {shown(path)} is no regular file. Give the path of one.")
+        raise GivenError(
+            f"{what} {shown(path)} is not a regular file. Give the path of a regular file."
+        )
     return found.st_size
 
 
 def text(path: Path, what: str, most: int = MOST_TEXT) -> str:
-    """What a UTF-8 file holds. what: its kind, as a message begins. GivenError."""
+    """The content of a UTF-8 file. what: its kind, which begins the message. GivenError."""
     size = regular(path, what)
     if size > most:
         raise GivenError(
-            f"{what} {shown(path)} has {size} bytes; {most} are the most that are read. It is"
-            " probably another file."
+            f"{what} {shown(path)} has {size} bytes; the limit is {most}. It is probably another "
+            "file."
         )
     try:
         found = Path(path).read_bytes().decode()
@@ -52,13 +54,13 @@ def text(path: Path, what: str, most: int = MOST_TEXT) -> str:
         raise GivenError(f"{what} {shown(path)} cannot be read: {reason(error)}.") from error
     if "\0" in found:
         raise GivenError(
-            f"{what} {shown(path)} holds a NUL byte, so it is no text. Give another file."
+            f"{what} {shown(path)} contains a NUL byte, so it is not text. Give another file."
         )
     return found
 
 
 def json_in(path: Path, what: str, most: int = MOST_TEXT) -> Any:
-    """What a JSON file holds. GivenError."""
+    """The content of a JSON file. GivenError."""
     try:
         return json.loads(text(path, what, most))
     except RecursionError as error:
@@ -69,7 +71,7 @@ def json_in(path: Path, what: str, most: int = MOST_TEXT) -> Any:
         raise
     except ValueError as error:  # a whole number of thousands of digits
         raise GivenError(
-            f"{what} {shown(path)} holds a number that cannot be read: {clipped(str(error))}."
+            f"{what} {shown(path)} contains a number that cannot be read: {clipped(str(error))}."
         ) from error
 
 
@@ -78,8 +80,8 @@ def reason(error: Exception) -> str:
 
 
 def printable(words: Any) -> str:
-    """Words from outside on one line, what cannot be printed escaped: a terminal obeys some
-    of it.
+    """External text on one line with unprintable characters escaped, because a terminal
+    interprets some of them.
     """
     return "".join(
         c if c.isprintable() else " " if c in "\n\t" else c.encode("unicode_escape").decode()
@@ -92,11 +94,11 @@ def shown(words: Any) -> str:
 
 
 def clipped(words: str, most: int = 300) -> str:
-    """On one line, and not a long one."""
+    """The text on one line, shortened if it is long."""
     line = " ".join(words.split())
     return line if len(line) <= most else f"{line[: most - 40]}... ({len(line)} characters)"
 
 
 def markup(words: Any) -> str:
-    """Words from outside as rich prints them, and not as its markup."""
+    """External text that rich prints literally and not as markup."""
     return escape(printable(words))

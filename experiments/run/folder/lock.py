@@ -1,8 +1,8 @@
-"""The lock of a run's folder: one runner at a time, and none left over when its holder dies.
+"""The lock of a run's folder: one runner at a time, released when its holder dies.
 
-`fcntl.flock` of the standard library: the kernel ends it with the process, whatever kills that, and
-children do not inherit it across exec. A library (filelock) would call the same function, and not
-say who holds it.
+`fcntl.flock` of the standard library: the kernel releases it with the process, however that ends,
+and children do not inherit it across exec. A library (filelock) would call the same function, but
+not report the holder.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ class Locked(RuntimeError):
 
 
 class Lock:
-    """`with Lock(folder):` Raises Locked, or OSError where the folder cannot be written.
+    """`with Lock(folder):` Raises Locked, or OSError if the folder is not writable.
 
-    A file system without locks is said to be one, and the work goes on.
+    On a file system without locks, a notice is printed and the work continues.
     """
 
     def __init__(self, folder: Path):
@@ -51,7 +51,8 @@ class Lock:
         return self
 
     def __exit__(self, *_) -> None:
-        self.path.unlink(missing_ok=True)  # before it is let go, so that nobody else's is removed
+        # before the lock is released, so that no other process's file is removed
+        self.path.unlink(missing_ok=True)
         self._file.close()
 
     def _take(self) -> None:
@@ -63,8 +64,8 @@ class Lock:
             if error.errno not in _NO_LOCKS:
                 raise
             say(
-                f"The file system of {self.folder} has no locks ({error.strerror}): nothing keeps a"
-                " second run out of it. See to it that there is none."
+                f"The file system of {self.folder} has no locks ({error.strerror}), so a second "
+                "run in it cannot be prevented. Make sure that there is none."
             )
 
     def _is_the_one(self) -> bool:

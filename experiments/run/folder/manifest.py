@@ -1,4 +1,4 @@
-"""What a run was made with, good enough to doubt a figure by."""
+"""The manifest of a run: everything about its origin that is needed to question a figure."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LIBRARIES = ("numpy", "scipy", "pandas", "pyarrow", "python-flint", "trimesh", "
 
 
 def machine() -> dict:
-    """Processor, frequency, memory, load, system: no name of the machine and no path."""
+    """Processor, frequency, memory, load, system: without the machine's name or any path."""
     frequency = psutil.cpu_freq()
     return {
         "processor": _processor(),
@@ -40,14 +40,16 @@ def versions(config: RunConfig) -> dict:
 
 
 def build() -> dict:
-    """Compiler and flags of our own native code, and the instruction set it uses here."""
+    """Compiler and flags of the project's native code, and the instruction set that it uses
+    here.
+    """
     from ofg import _core
 
     return {"compiler": _core.build, "isa": ("sse2", "avx2", "avx512")[_core.widest_isa()]}
 
 
 def commit() -> str:
-    """The commit of the checkout with '+' if files other than results differ from it; 'unknown'
+    """The commit of the checkout, with '+' if files other than results differ from it; 'unknown'
     outside a checkout.
     """
     root = Path(__file__).parent
@@ -72,8 +74,8 @@ def now() -> str:
 
 
 def version(name: str) -> str | None:
-    """Of an installed distribution, or of a library that the native lane built; None where there is
-    none.
+    """Version of an installed distribution, or of a library built by the native lane; None if
+    absent.
     """
     if found := library.version(name):
         return found
@@ -93,7 +95,7 @@ def _processor() -> str:
         return platform.processor() or "unknown"
 
 
-#: what is made from the rows at any time, or tells of the machine: not data of the run
+#: derived from the rows at any time, or about the machine: not data of the run
 DERIVED = {
     "manifest.json",
     "report.html",

@@ -1,7 +1,7 @@
-"""What a result comes from beside its configuration: the code, the libraries, a reader's own files.
+"""The origin of a result besides its configuration: the code, the libraries, the user's own files.
 
-An unfinished run that goes on after an update must not mix answers of two states of the code; what
-an unchanged engine said is used again only while everything that it hangs on is the same.
+An unfinished run that resumes after an update must not mix answers from two versions of the code;
+answers of an unchanged engine are reused only while everything on which they depend is unchanged.
 """
 
 from __future__ import annotations
@@ -16,19 +16,19 @@ from . import manifest
 ROOT = Path(__file__).parents[3]
 PACKAGES = ("ofg", "baselines", "experiments")
 NATIVE = ("ofg._core", "experiments.truth.prove._native")
-CODE = (".py", ".csv")  # of baselines: units.csv, by which methods answer
+CODE = (".py", ".csv")  # of baselines: units.csv, which affects how methods answer
 READERS = ("publish",)  # parts of `experiments` that only read finished runs
 
 
 def facts(engine: str | None = None) -> dict:
-    """The code and the versions of the libraries, and of one engine's distribution if named."""
+    """The code and the versions of the libraries, and of one engine's distribution if given."""
     names = (*manifest.LIBRARIES, *([engine] if engine else []))
     return {"code": code(), "versions": {name: manifest.version(name) for name in names}}
 
 
 @cache
 def code() -> str:
-    """A digest of the project's own code, Python and compiled: the same for the same code only."""
+    """A digest of the project's own code, Python and compiled: equal only for equal code."""
     found = hashlib.sha256()
     paths = [
         p

@@ -1,5 +1,5 @@
-"""The files of a run as they are read: every column is there, of its type and in its range, or the
-file is refused.
+"""Read the files of a run: every column is present, of its type and in its range, or the file is
+refused.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ _BODY = {
     "piece_faces": 0,
 }
 
-#: file -> column -> what it holds: a kind above, one of some words, or a list of so many finite
+#: file -> column -> its content: a kind above, one of several strings, or a list of so many finite
 #: numbers (0: of any length).
 COLUMNS: dict[str, dict] = {
     "cases.parquet": {
@@ -107,7 +107,7 @@ COLUMNS: dict[str, dict] = {
         "detail": TEXT,
     },
 }
-#: Columns that older runs, and references for `compare`, lack: rows.filled knows what then holds.
+#: Columns that older runs, and references for `compare`, lack: rows.filled supplies their values.
 LATER = {
     "index",
     "attempt",
@@ -139,7 +139,7 @@ class RecordError(ValueError):
 
 
 class Facts(BaseModel):
-    """What is read of manifest.json; more may stand in it."""
+    """The fields that are read from manifest.json, which may contain more."""
 
     model_config = ConfigDict(extra="allow")
     versions: dict[str, str | None] = {}
@@ -149,7 +149,7 @@ class Facts(BaseModel):
 
 
 def facts(path: Path) -> dict:
-    """What manifest.json holds. RecordError where it is none."""
+    """The content of manifest.json. RecordError if it is invalid."""
     found = given.json_in(path, "The file")
     try:
         Facts.model_validate(found)
@@ -163,8 +163,8 @@ def facts(path: Path) -> dict:
 
 
 def read(path: Path, name: str = "") -> pd.DataFrame:
-    """The rows of a parquet file, checked if it is one of COLUMNS. RecordError, in one sentence,
-    for any other file.
+    """The rows of a parquet file, validated if it is listed in COLUMNS. RecordError, in one
+    sentence, for an invalid file.
     """
     frame = _rows(path)
     why = "it has no rows" if name in UNIQUE and frame.empty else wrong(frame, name)
@@ -174,30 +174,30 @@ def read(path: Path, name: str = "") -> pd.DataFrame:
 
 
 def wrong(frame: pd.DataFrame, name: str) -> str | None:
-    """What is wrong with the rows of a file of COLUMNS, if anything is."""
+    """The first fault of the rows of a file listed in COLUMNS, if there is one."""
     return wrong_values(frame, name) or _doubled(frame, name)
 
 
 def wrong_values(frame: pd.DataFrame, name: str) -> str | None:
-    """The same of each row by itself."""
+    """The same for each row by itself."""
     for column, kind in COLUMNS.get(name, {}).items():
         if column not in frame:
-            if column not in LATER or name.startswith("pieces"):  # which never lacked them
+            if column not in LATER or name.startswith("pieces"):  # these were never missing
                 return f"it lacks the column '{column}'"
             continue
         row = _wrong(frame[column], kind, (name, column) in EMPTY)
         if row is not None:
             words = given.shown(repr(frame[column].iloc[row]))[:80]
-            return f"row {row} has {words} in the column '{column}', which is to hold {_said(kind)}"
+            return (
+                f"row {row} has {words} in the column '{column}', which must contain {_said(kind)}"
+            )
     return None
 
 
 def _doubled(frame: pd.DataFrame, name: str) -> str | None:
     if name in UNIQUE and (twice := frame.duplicated(UNIQUE[name])).any():
         row = int(np.flatnonzero(twice)[0])
-        return (
-            f"row {row} stands there twice ({given.shown(frame[UNIQUE[name]].iloc[row].tolist())})"
-        )
+        return f"row {row} is a duplicate ({given.shown(frame[UNIQUE[name]].iloc[row].tolist())})"
     return None
 
 
@@ -209,12 +209,12 @@ def _rows(path: Path) -> pd.DataFrame:
         if size > MOST_BYTES:
             raise ValueError(f"it would unpack to {size} bytes")
         return pd.read_parquet(path)
-    except Exception as error:  # pyarrow raises errors of a dozen types for what is no parquet file
+    except Exception as error:  # pyarrow raises errors of a dozen types
         raise _damaged(path, f"it cannot be read ({given.reason(error)})") from error
 
 
 def _wrong(values: pd.Series, kind, may_be_empty: bool) -> int | None:
-    """The first row that does not hold what it should."""
+    """The first row with an invalid value."""
     if kind in (NUMBER, FINITE, WHOLE, TRUTH):
         return _first(_wrong_numbers(values, kind, may_be_empty))
     if isinstance(kind, int):
@@ -228,9 +228,7 @@ def _wrong(values: pd.Series, kind, may_be_empty: bool) -> int | None:
 
 
 def is_name(value) -> bool:
-    """Words that can be printed, and that lead nowhere as a path: a case is
-    scenario/level/index.
-    """
+    """Whether a text is printable and safe as a path: a case is scenario/level/index."""
     if not isinstance(value, str) or not value.strip() or not value.isprintable() or "\\" in value:
         return False
     return len(value) <= inside.LONGEST and not {"", ".", ".."} & set(value.split("/"))
@@ -255,7 +253,7 @@ def _wrong_numbers(values: pd.Series, kind, may_be_empty: bool) -> np.ndarray:
 
 
 def _is_list(value, size: int, may_be_empty: bool) -> bool:
-    """A flat array of finite numbers."""
+    """Whether it is a flat array of finite numbers."""
     fine = isinstance(value, (np.ndarray, list)) and (not size or len(value) == size)
     array = np.asarray(value) if fine else np.empty(0, object)
     return (
@@ -274,7 +272,7 @@ def _said(kind) -> str:
     return (
         f"a {kind}"
         if kind != NAME
-        else f"a name of {inside.LONGEST} characters at most, without .. and \\"
+        else f"a name of at most {inside.LONGEST} characters, without .. and \\"
     )
 
 
@@ -285,6 +283,6 @@ def _first(bad) -> int | None:
 
 def _damaged(path: Path, why: str) -> RecordError:
     return RecordError(
-        f"{path} was changed or is damaged: {why}. Take the run anew from where it was made, or"
-        " make it again."
+        f"{path} was changed or is damaged: {why}. Copy the run again from its source, or make it "
+        "again."
     )

@@ -1,4 +1,6 @@
-"""Cases, bodies and truths as rows of a table, readable without this code, and back."""
+"""Conversion of cases, bodies and truths to rows of a table, readable without this code, and
+back.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,7 @@ from . import given
 
 
 class RowError(ValueError):
-    """A row that is no body or no case; the message names the file and the row."""
+    """A row that is not a valid body or case; the message names the file and the row."""
 
 
 MOTION = (
@@ -33,7 +35,7 @@ MOTION = (
 
 
 def case_row(case: Case, truth: Truth, attempt: int) -> dict:
-    """One row of cases.parquet. attempt: how many draws before this one were thrown away."""
+    """One row of cases.parquet. attempt: the number of rejected draws before this one."""
     q = case.query
     return {
         "case": case.id,
@@ -59,7 +61,7 @@ def case_row(case: Case, truth: Truth, attempt: int) -> dict:
 
 
 def truth_row(truth: Truth) -> dict:
-    """The columns of a row that a truth gives."""
+    """The columns of a row that contain a truth."""
     return {
         "label": truth.label,
         "t_lo": truth.t_lo,
@@ -74,8 +76,8 @@ def truth_row(truth: Truth) -> dict:
 
 
 def _motion_row(motion: Motion, side: str) -> dict:
-    """A's motion is in `displacement`, `axis`, `angle` and `about`; B's has the same names with
-    "_b" behind.
+    """A's motion is in `displacement`, `axis`, `angle` and `about`; B's in columns of the same
+    names with the suffix "_b".
     """
     return {
         f"displacement{side}": motion.displacement.tolist(),
@@ -86,8 +88,9 @@ def _motion_row(motion: Motion, side: str) -> dict:
 
 
 def filled(cases: pd.DataFrame) -> pd.DataFrame:
-    """The rows with every column. Runs recorded before a column was: B rests there, A turns about
-    its origin, every pose and motion is of float32 numbers, and no case is known to touch.
+    """The rows with every column. Defaults for runs recorded before a column existed: B rests, A
+    rotates about its origin, every pose and motion consists of float32 numbers, and no case is
+    known to touch.
     """
     rest = {
         f"{name}{side}": value
@@ -104,8 +107,8 @@ def filled(cases: pd.DataFrame) -> pd.DataFrame:
 
 
 def body_row(body: Body) -> dict:
-    """One row of bodies.parquet: flat arrays; the pieces of a union one after another, faces
-    counted through.
+    """One row of bodies.parquet: flat arrays; the pieces of a union one after another, face
+    indices into all vertices.
     """
     pieces = body.pieces if body.kind == "union" else (body,)
     return {
@@ -120,21 +123,22 @@ def body_row(body: Body) -> dict:
 
 
 def body_of(row) -> Body:
-    """The body of a row, vertex for vertex and face for face as it was. BodyError where it is none,
-    or where the content is not that of the digest it stands under."""
+    """The body of a row with its original vertices and faces. BodyError if it is invalid, or if
+    its content does not match its recorded digest.
+    """
     body = readback.body(
         row.kind, row.vertices, row.faces, row.piece_vertices, row.piece_faces, row.name
     )
     if body.digest != row.body:
         raise BodyError(
-            f"Body '{row.name}': its content has the digest {body.digest}, and not {row.body},"
-            " under which it stands."
+            f"Body '{row.name}': its content has the digest {body.digest}, but it is recorded "
+            f"under {row.body}."
         )
     return body
 
 
 def _certificate(text: str):
-    """The stored certificate; the text itself where it is no JSON, or too deep, which the checker
+    """The stored certificate; the text itself if it is not JSON, or too deep, which the checker
     refuses.
     """
     try:
@@ -147,18 +151,18 @@ def tags_of(text: str) -> dict:
     try:
         tags = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise ValueError(f"its tags are no JSON ({given.reason(error)})") from error
+        raise ValueError(f"its tags are not JSON ({given.reason(error)})") from error
     if not isinstance(tags, dict) or not all(
         isinstance(v, (str, int, float)) for v in tags.values()
     ):
-        raise ValueError("its tags are no words and numbers by name")
+        raise ValueError("its tags are not strings and numbers by name")
     return tags
 
 
 def cases_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> Iterable[tuple[Case, Truth]]:
     """Cases and truths in the order of the rows; equal bodies are one object.
 
-    RowError, which names the file and the row, for a body or a case that is none.
+    RowError, which names the file and the row, for an invalid body or case.
     """
     made = {}
     for row in bodies.itertuples():
@@ -202,12 +206,12 @@ def _case(row, made) -> tuple[Case, Truth]:
 
 @contextmanager
 def named(file: str, index, name: str) -> Iterator[None]:
-    """Errors of a row as RowError."""
+    """Convert errors of a row to RowError."""
     try:
         yield
     except (ValueError, TypeError) as error:
         raise RowError(
-            f"Row {index} of {file} ({given.shown(name)}) cannot be used:"
-            f" {given.clipped(str(error))} The file was changed or is damaged; take the run anew"
-            " from where it was made, or make it again."
+            f"Row {index} of {file} ({given.shown(name)}) cannot be used: "
+            f"{given.clipped(str(error))} The file was changed or is damaged; copy the run again "
+            "from its source, or make it again."
         ) from error

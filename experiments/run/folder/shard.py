@@ -1,4 +1,4 @@
-"""A shard: a finished piece of an unfinished run, named by what determines it and by its bytes."""
+"""A shard: a finished part of an unfinished run, named by what determines it and by its bytes."""
 
 from __future__ import annotations
 
@@ -13,44 +13,44 @@ import pandas as pd
 from experiments.run.progress import say
 from ofg import wholefile
 
-FORMAT = 1  # goes up when the columns of a shard or their meaning change
+FORMAT = 1  # incremented when the columns of a shard or their meaning change
 LENGTH = 32  # hexadecimal digits of a key, and of a digest
 
 
 def key(made_of: dict) -> str:
-    """The name of what these facts determine (anything that JSON takes)."""
+    """The name determined by these facts (anything that JSON supports)."""
     text = json.dumps({"format": FORMAT, **made_of}, sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
 
 
 @dataclass(frozen=True)
 class Shard:
-    """folder/KEY.DIGEST.parquet. The digest is in the name, as two files are not renamed at
-    once.
+    """folder/KEY.DIGEST.parquet. The name contains the digest, because two files cannot be
+    renamed atomically.
     """
 
     folder: Path
     key: str
 
     def ready(self) -> bool:
-        """Whether it is there and whole. What is there and broken is removed, with a notice."""
+        """Whether it exists and is complete. A broken shard is removed, with a notice."""
         found = False
         for path in self._files():
             if _digest(path) == path.name.split(".")[1]:
                 found = True
                 continue
-            say(f"{path} is damaged (cut short, altered or unreadable); it is made again.")
+            say(f"{path} is damaged (truncated, altered or unreadable); it is made again.")
             path.unlink()
         return found
 
     def read(self) -> pd.DataFrame:
-        """Its rows. FileNotFoundError where it is not `ready`."""
+        """Its rows. FileNotFoundError if it is not `ready`."""
         if not self.ready():
             raise FileNotFoundError(2, "a part of the run is missing or damaged", str(self.folder))
         return pd.read_parquet(self._files()[0])
 
     def write(self, frame: pd.DataFrame) -> None:
-        """OSError where it cannot be written; nothing is left then."""
+        """Write it. OSError if that fails; no file is left then."""
         self.folder.mkdir(parents=True, exist_ok=True)
         temporary = wholefile.temporary_of(self.folder / self.key)
         try:

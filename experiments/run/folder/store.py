@@ -1,5 +1,5 @@
-"""The run folder: what is in it, written so that a kill at any moment loses at most the part being
-made.
+"""The run folder: its content, written so that a kill at any moment loses at most the part in
+progress.
 """
 
 from __future__ import annotations
@@ -23,26 +23,26 @@ from . import given, lock, record
 from .inside import inside
 from .shard import Shard, key
 
-#: what a run makes before its config.json, or all that is left where that file was lost
+#: written before the run's config.json, or all that is left if that file was lost
 _OURS = {lock.NAME, ownfile.FOLDER, "parts", "workers.log", "manifest.json"}
 
 
 class StoreError(RuntimeError):
-    """A run folder that cannot be used; the message says why and what to do."""
+    """A run folder that cannot be used; the message gives the reason and the remedy."""
 
 
 class Store:
     """One run = one folder: config.json, manifest.json, cases.parquet, bodies.parquet,
-    observations.parquet, timings.parquet, pieces.parquet and pieces-bodies.parquet (where a method
-    decomposes meshes), tables/, figures/, own/ (copies of a reader's own files); `parts/` holds
-    shards of an unfinished run and is removed at its end.
+    observations.parquet, timings.parquet, pieces.parquet and pieces-bodies.parquet (if a method
+    decomposes meshes), tables/, figures/, own/ (copies of the user's own files); `parts/`
+    contains shards of an unfinished run and is removed at its end.
     """
 
     def __init__(self, folder):
         self.folder = Path(folder)
 
     def path(self, *names: str) -> Path:
-        """Where to write. Outside where that is not in the folder: see `inside`."""
+        """Where to write. Outside if that is not in the folder: see `inside`."""
         path = inside(self.folder, *names)
         with self._machine(path):
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -50,9 +50,10 @@ class Store:
 
     @contextlib.contextmanager
     def held(self, config: RunConfig) -> Iterator[None]:
-        """The folder is this run's alone: locked, claimed for `config`, and rid of what kills left.
+        """Hold the folder for this run alone: locked, claimed for `config`, and cleared of remains
+        of killed runs.
 
-        StoreError where another run or runner is there, or the folder cannot be made or written.
+        StoreError if it contains another run or is in use, or cannot be made or written.
         """
         holder = lock.Lock(self.folder)
         try:
@@ -73,23 +74,24 @@ class Store:
                 holder.__exit__()
 
     def begin(self, config: RunConfig) -> None:
-        """Claim the folder for this configuration, or go on with the same one. StoreError where
-        another run is there.
+        """Claim the folder for this configuration, or continue a run of the same one. StoreError
+        if it contains another run.
         """
         self._refuse_foreign()
         known = self._sound("config.json")
         if known:
             if changed := ", ".join(config.differences(self.config)):
                 raise StoreError(
-                    f"The folder {self.folder} holds a run of another configuration (it differs in:"
-                    f" {changed}). Choose another folder with --out, or remove that one."
+                    f"The folder {self.folder} contains a run of another configuration (it "
+                    f"differs in: {changed}). Choose another folder with --out, or remove that "
+                    "one."
                 )
             if changed := ownfile.changed(config, self.folder):
                 raise StoreError(changed)
         if not (known and self._sound("manifest.json")):
-            # whose tables these are is not known any more; shards are found by what they are
+            # the configuration of these tables is unknown; shards are identified by their content
             self.folder.joinpath("manifest.json").unlink(missing_ok=True)
-        # the copies first: where config.json is, they are
+        # the copies first: if config.json exists, so do they
         for name, path in ownfile.copies(config).items():
             if not self.has(ownfile.FOLDER, name):
                 self.write_file(
@@ -102,8 +104,8 @@ class Store:
         path = self.folder / "config.json"
         if not path.is_file():
             raise StoreError(
-                f"{self.folder} is no run folder: it has no config.json. Make one with: ofg-bench"
-                f" run quick --out {self.folder}"
+                f"{self.folder} is not a run folder: it has no config.json. Make one with: "
+                f"ofg-bench run quick --out {self.folder}"
             )
         return parsed(
             _of_now(given.text(self.folder / "config.json", "The file")),
@@ -112,7 +114,7 @@ class Store:
 
     @property
     def facts(self) -> dict:
-        """What manifest.json holds; nothing where there is none. StoreError where it is none."""
+        """The content of manifest.json; empty if there is none. StoreError if it is invalid."""
         path = self.folder / "manifest.json"
         return record.facts(path) if path.exists() else {}
 
@@ -124,11 +126,11 @@ class Store:
         return self.folder.joinpath(*names).exists()
 
     def shard(self, kind: str, **made_of) -> Shard:
-        """The piece of `kind` (a folder of parts/) that these facts determine."""
+        """The part of `kind` (a folder of parts/) that these facts determine."""
         return Shard(inside(self.folder, "parts", kind), key({"kind": kind, **made_of}))
 
     def write(self, frame: pd.DataFrame, name: str | Shard, *names: str) -> None:
-        """A table of the run, or a shard. MachineError where the disk is full or fails."""
+        """Write a table of the run, or a shard. MachineError if the disk is full or fails."""
         if isinstance(name, Shard):
             with self._machine(name.folder):
                 name.write(frame)
@@ -144,14 +146,14 @@ class Store:
         self.write_file(lambda temporary: temporary.write_bytes(content), *names)
 
     def write_file(self, fill: Callable[[Path], object], *names: str) -> None:
-        """A file that is there whole or not at all. fill(path): writes it."""
+        """Write a file atomically. fill(path): writes it."""
         path = self.path(*names)
         with self._machine(path):
             wholefile.write(path, fill)
 
     def read(self, name: str | Shard, *names: str, checked: bool = True) -> pd.DataFrame:
-        """The rows of a file, or of a shard. checked: with columns, types and ranges as
-        record.COLUMNS says; RecordError if not.
+        """The rows of a file, or of a shard. checked: with columns, types and ranges as in
+        record.COLUMNS; RecordError if not.
         """
         path = name.folder if isinstance(name, Shard) else self.folder.joinpath(name, *names)
         if not (name.ready() if isinstance(name, Shard) else path.is_file()):
@@ -169,19 +171,19 @@ class Store:
         return frame
 
     def _refuse_foreign(self) -> None:
-        """StoreError where the folder is a file, or holds what no run makes."""
+        """StoreError if the folder is a file, or contains files that no run writes."""
         if self.folder.exists() and not self.folder.is_dir():
             raise StoreError(f"{self.folder} is a file, not a folder. Choose a folder with --out.")
         if not self.has("config.json") and self.folder.exists():
             left = set(wholefile.leftovers(self.folder))
             if any(p.name not in _OURS for p in set(self.folder.iterdir()) - left):
                 raise StoreError(
-                    f"The folder {self.folder} is not empty and holds no run. Choose another one"
-                    " with --out."
+                    f"The folder {self.folder} is not empty and contains no run. Choose another "
+                    "one with --out."
                 )
 
     def _sound(self, name: str) -> bool:
-        """Whether the file is there and JSON. One that is not is made again by `begin`, with a
+        """Whether the file exists and is JSON. An invalid one is made again by `begin`, with a
         notice.
         """
         path = self.folder / name
@@ -191,7 +193,7 @@ class Store:
             json.loads(path.read_bytes())
             return True
         except (ValueError, RecursionError):
-            say(f"{path} is damaged (empty, cut short or altered); it is made again.")
+            say(f"{path} is damaged (empty, truncated or altered); it is made again.")
             return False
 
     @contextlib.contextmanager
@@ -200,29 +202,29 @@ class Store:
             yield
         except OSError as error:
             raise MachineError(
-                f"{path} could not be written: {error.strerror or error}. What was finished before"
-                " is kept; free some space or make the folder writable, then say: ofg-bench resume"
-                f" {self.folder}"
+                f"{path} could not be written: {error.strerror or error}. What was finished "
+                "before is kept; free some space or make the folder writable, then run: "
+                f"ofg-bench resume {self.folder}"
             ) from error
 
     def _unusable(self, error: OSError) -> StoreError | MachineError:
         kind, remedy = (
-            (MachineError, "Free some space, then say the same command again")
+            (MachineError, "Free some space, then repeat the command")
             if error.errno in ERRNOS
-            else (StoreError, "Choose a folder that can be written with --out")
+            else (StoreError, "Choose a writable folder with --out")
         )
         return kind(
             f"The folder {self.folder} cannot be used: {error.strerror or error}. {remedy}."
         )
 
 
-#: parameters of methods that had another name when a run was recorded, as they stand in its labels
+#: former names of method parameters, as in the labels of recorded runs
 _RENAMED = {" selection=": " nearest=", " selections=": " selection_times="}
 
 
 def _of_now(text: str) -> str:
-    """Labels of methods as they are written now; what is no text stays as it is, for the reader to
-    refuse.
+    """Labels of methods in their current form; values that are not text are unchanged and
+    refused by the reader.
     """
     if not isinstance(text, str):
         return text

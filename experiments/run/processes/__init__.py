@@ -1,3 +1,1 @@
-"""Worker processes: a method that crashes, hangs or fills the memory costs its own row and no
-other.
-"""
+"""Worker processes: a method that crashes, hangs or exhausts the memory loses only its own row."""

@@ -1,5 +1,5 @@
-"""The runner's side of its workers: it starts them, hears them, holds them to their limits and
-buries them.
+"""The runner's side of its workers: it starts them, receives their messages, enforces their
+limits and cleans up after them.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ from .log import Log
 from .machine import MachineError
 from .worker import LENGTH
 
-TICK = 0.5  # seconds between two looks at the limits
-STOPPED = 5.0  # seconds late for a look: the runner itself was stopped meanwhile
+TICK = 0.5  # seconds between two checks of the limits
+STOPPED = 5.0  # seconds of delay of a check: the runner itself was stopped meanwhile
 ANSWER = 120.0  # seconds for the fork server to start, or to answer
-STARTS = 5  # fork servers that may die in a row while nothing gets done
-VARIABLE = "OFG_RUNNER"  # in the environment of all that a runner starts: its process id
+STARTS = 5  # fork servers that may die in a row without progress
+VARIABLE = "OFG_RUNNER"  # in the environment of everything that a runner starts: its process id
 
 
 @dataclass
 class Worker:
-    """One process. frames: what it sent, (kind, value). ended_for: why the runner killed it."""
+    """One process. frames: its messages, (kind, value). ended_for: why the runner killed it."""
 
     pid: int
     page: Page
@@ -44,13 +44,13 @@ class Worker:
     frames: list[tuple[str, Any]] = field(default_factory=list)
     buffer: bytearray = field(default_factory=bytearray)
     ended_for: str = ""
-    ended_at: int = -1  # number of the limit that had been passed
+    ended_at: int = -1  # number of the exceeded limit
     page_mark: str = ""
     page_number: int = -1
     deaf: set[int] = field(default_factory=set)  # pipes that it closed
 
     def hear(self) -> None:
-        """Take what was sent up to now."""
+        """Read its messages so far."""
         with contextlib.suppress(BlockingIOError):
             while data := os.read(self.results, 1 << 16):
                 self.buffer += data
@@ -63,13 +63,13 @@ class Worker:
             del self.buffer[:end]
 
     def look(self) -> None:
-        """End it, with its group, if it has passed a limit."""
+        """Kill it, with its group, if it has exceeded a limit."""
         if not self.ended_for and (why := self.page.overdue(self.pid)):
             self.ended_for, self.ended_at = why, self.page.number
             process.kill_group(self.pid)
 
     def close(self) -> None:
-        """Free what is ours of it; the last words on its page are kept."""
+        """Free its resources; the last text on its page is kept."""
         self.page_mark, self.page_number = self.page.mark, self.page.number
         self.page.close()
         os.close(self.results)
@@ -88,7 +88,7 @@ class Crew:
 
     @property
     def busy(self) -> bool:
-        """Whether `wait` has somebody to wait for, or to tell of."""
+        """Whether `wait` has workers to wait for, or to report."""
         return bool(self.workers or self.ended)
 
     def __enter__(self) -> Crew:
@@ -110,8 +110,8 @@ class Crew:
         self.log.close()
 
     def start(self, job, payload: Sequence[Any]) -> None:
-        """A fresh worker for the job. payload: see worker.work. MachineError where none can be
-        started.
+        """Start a fresh worker for the job. payload: see worker.work. MachineError if none can
+        be started.
         """
         while True:
             try:
@@ -143,7 +143,7 @@ class Crew:
         self.workers[pid] = Worker(pid, page, results, output, job)
 
     def wait(self) -> list[tuple[Worker, int | None]]:
-        """Workers that have ended, each with its exit code: -n for signal n, None where its fork
+        """Workers that have ended, each with its exit code: -n for signal n, None if its fork
         server died.
         """
         if self.ended:
@@ -191,7 +191,9 @@ class Crew:
         return worker
 
     def _bury_all(self) -> list[tuple[Worker, None]]:
-        """The fork server died: end what it had started, which the kernel made our own children."""
+        """The fork server died: kill what it had started, which the kernel made our own
+        children.
+        """
         self.deaths += 1
         _forget_server()
         for pid in self.workers:
@@ -204,7 +206,7 @@ class Crew:
         ended = [(self._buried(pid), None) for pid in list(self.workers)]
         if self.deaths >= STARTS:
             raise MachineError(
-                f"The process that starts the workers died {STARTS} times, and nothing got done "
+                f"The process that starts the workers died {STARTS} times without progress in "
                 f"between. {RESUME}"
             )
         return ended
@@ -223,8 +225,8 @@ class Crew:
 
 
 RESUME = (
-    "What was finished is kept. See to the machine (memory, limits on processes, another program"
-    " that ends them), then say the same command again, or: ofg-bench resume RUN"
+    "What was finished is kept. Check the machine (memory, limits on processes, another program "
+    "that ends them), then repeat the command, or run: ofg-bench resume RUN"
 )
 
 
@@ -233,8 +235,8 @@ class _ServerGone(Exception):
 
 
 class _Server:
-    """A fork server and the socket to it. owner: the process that started it; a fork of that one
-    needs its own.
+    """A fork server and the socket to it. owner: the process that started it; a fork of that
+    process needs its own.
     """
 
     def __init__(self):
@@ -276,9 +278,7 @@ _current: _Server | None = None
 
 
 def _server() -> _Server:
-    """The fork server of this process, started at the first call; runs after one another
-    share it.
-    """
+    """The fork server of this process, started at the first call; consecutive runs share it."""
     global _current
     if _current is None or _current.owner != os.getpid():
         _current = _Server()

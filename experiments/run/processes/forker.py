@@ -1,7 +1,8 @@
-"""The process that workers are forked from: with the imports done, a worker starts in milliseconds.
+"""The process from which workers are forked: with the imports done, a worker starts in
+milliseconds.
 
-It is started by `crew`, and does two things more than a server of multiprocessing: it adopts what
-workers leave behind, and it ends all of that when its runner is gone, however that died.
+`crew` starts it. Unlike a server of multiprocessing, it adopts what workers leave behind, and it
+ends all of that when its runner is gone, however that died.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import socket
 
 from . import process
 
-# Without these imports each worker takes a second to start. No engine is among them.
+# Without these imports each worker takes a second to start. They include no engine.
 PRELOAD = (
     "experiments.cli.app",
     "experiments.run.labelling",
@@ -25,7 +26,7 @@ PRELOAD = (
     "experiments.truth",
     "experiments.run.processes.worker",
 )
-DESCRIPTORS = 4  # that come with each request: see worker.work
+DESCRIPTORS = 4  # descriptors that come with each request: see worker.work
 
 
 class _RunnerGone(BaseException):
@@ -34,7 +35,7 @@ class _RunnerGone(BaseException):
 
 def serve(fd: int, runner: int) -> None:
     """Answer requests on this socket until the runner (a process id) closes it or dies."""
-    process.signal_at_parents_death(signal.SIGKILL)  # while it imports, it has nothing to clean up
+    process.signal_at_parents_death(signal.SIGKILL)  # during its imports it has nothing to clean up
     if os.getppid() != runner:
         os._exit(0)
     process.adopt_orphans()
@@ -42,9 +43,9 @@ def serve(fd: int, runner: int) -> None:
         importlib.import_module(module)
     try:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-        # A handler that did more than wake would do it while what is left is cleaned up, too.
+        # The handler must only wake the loop: anything more would also run during the cleanup.
         signal.signal(signal.SIGCONT, lambda *_: None)
-        process.signal_at_parents_death(signal.SIGCONT)  # wakes it even where it was stopped
+        process.signal_at_parents_death(signal.SIGCONT)  # wakes it even if it was stopped
         _Server(socket.socket(fileno=fd), runner).serve()
     except (_RunnerGone, OSError):
         pass
@@ -100,7 +101,7 @@ class _Server:
         return True
 
     def _become_worker(self, server: int, fds: list[int]) -> None:
-        """In the child. Its group is its own, so that all of it can be ended at once."""
+        """In the child: it gets its own process group, so that all of it can be killed at once."""
         try:
             signal.set_wakeup_fd(-1)
             for which in (signal.SIGCHLD, signal.SIGCONT):
@@ -117,7 +118,7 @@ class _Server:
             os._exit(1)
 
     def _bury(self) -> None:
-        """Report the dead, each after the end of its group: its number is not given anew before
+        """Report dead workers, each after its group has ended: its number is not reused before
         that.
         """
         while self.workers:
@@ -130,7 +131,7 @@ class _Server:
             if info.si_pid in self.workers:
                 self.workers.discard(info.si_pid)
                 if not self.workers:
-                    process.kill_children()  # that left their group
+                    process.kill_children()  # processes that left their group
                 self._say(died=info.si_pid, code=os.waitstatus_to_exitcode(status))
 
     def _say(self, **what) -> None:

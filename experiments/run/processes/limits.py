@@ -1,7 +1,7 @@
-"""Two limits on what a worker does: processor time, and a deadline on the wall ten times later.
+"""Two limits on a worker: processor time, and a wall-clock deadline of about ten times that.
 
-The worker keeps the first itself, by a timer of the kernel; the runner looks after both from
-outside, by a page of memory that the two share.
+The worker enforces the first itself with a kernel timer; the runner enforces both from outside,
+through a page of memory that the two share.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from time import monotonic, process_time
 import psutil
 
 GRACE = 60.0  # seconds of the wall deadline beyond ten times the limit
-SLACK = 0.5  # seconds of processor time that the worker's own timer has, before the runner steps in
-_HEAD = struct.Struct("=Qd")  # number of the limit that holds, its seconds (0: none holds)
+SLACK = 0.5  # seconds of processor time for the worker's own timer, before the runner intervenes
+_HEAD = struct.Struct("=Qd")  # number of the active limit, its seconds (0: none active)
 _SIZE = mmap.PAGESIZE
-_page: mmap.mmap | None = None  # of this process, where it is a worker
+_page: mmap.mmap | None = None  # of this process, if it is a worker
 _number = 0
 
 
@@ -28,8 +28,8 @@ _number = 0
 def limit(seconds: float):
     """End this process if the block takes more processor time, in all its threads.
 
-    Death is by SIGPROF, whose default action needs no interpreter lock: native code that holds it
-    is ended too. Within another limit, what is left of that one still holds.
+    The process dies by SIGPROF, whose default action needs no interpreter lock: native code that
+    holds it is ended too. Within another limit, the remainder of that limit still applies.
     """
     outer, begun = signal.getitimer(signal.ITIMER_PROF)[0], process_time()
     signal.setitimer(signal.ITIMER_PROF, min(seconds, outer or math.inf))
@@ -43,7 +43,7 @@ def limit(seconds: float):
 
 
 def mark(text: str) -> None:
-    """Leave word of what this process is about: the runner reads it if the process dies."""
+    """Record what this process is working on: the runner reads it if the process dies."""
     if _page is not None:
         words = text.encode("utf-8", "backslashreplace")[: _SIZE - _HEAD.size - 2]
         struct.pack_into(f"=H{len(words)}s", _page, _HEAD.size, len(words), words)
@@ -57,7 +57,7 @@ def _tell(seconds: float) -> None:
 
 
 def share(fd: int) -> None:
-    """In a worker: tell limits and marks through this page from now on."""
+    """In a worker: write limits and marks to this page from now on."""
     global _page, _number
     _page, _number = mmap.mmap(fd, _SIZE), 0
 
@@ -65,8 +65,8 @@ def share(fd: int) -> None:
 class Page:
     """The runner's side of the page that it shares with one worker.
 
-    fd: for the worker. `overdue` is asked now and then; what it measures counts from the first time
-    that it finds a new limit, so that it never charges too much.
+    fd: for the worker. `overdue` is called now and then; it measures from the first time that it
+    finds a new limit, so that it never charges too much.
     """
 
     def __init__(self):
@@ -77,30 +77,30 @@ class Page:
 
     @property
     def number(self) -> int:
-        """Which limit holds: another number, another limit."""
+        """Number of the active limit: another number, another limit."""
         return _HEAD.unpack_from(self._memory)[0]
 
     @property
     def seconds(self) -> float:
-        """The limit that holds, 0 where none does."""
+        """The active limit, 0 if there is none."""
         return _HEAD.unpack_from(self._memory)[1]
 
     @property
     def mark(self) -> str:
-        """What the worker said last that it was about."""
+        """The worker's last mark."""
         (length,) = struct.unpack_from("=H", self._memory, _HEAD.size)
         start = _HEAD.size + 2
         return self._memory[start : start + length].decode("utf-8", "replace")
 
     def overdue(self, pid: int) -> str:
-        """Which limit the worker has passed: "timeout" (processor time), "deadline" or ""."""
+        """The limit that the worker has exceeded: "timeout" (processor time), "deadline" or ""."""
         now = monotonic()
         if self.number != self._number:
             self._number, self._begun, self._spent = self.number, now, None
         elapsed = now - self._begun
         if elapsed > deadline(self.seconds):
             return "deadline"
-        if self._spent is None:  # measured late, which is to the worker's advantage
+        if self._spent is None:  # measured late, in the worker's favour
             self._spent = processor_seconds(pid) if elapsed > min(1.0, self.seconds) else None
             return ""
         over = self.seconds and elapsed > self.seconds + SLACK
@@ -110,7 +110,7 @@ class Page:
         return processor_seconds(pid) - self._spent
 
     def forgive(self) -> None:
-        """Count the wall anew: the runner itself was stopped and knows nothing of the time
+        """Restart the wall clock: the runner itself was stopped and cannot account for the time
         since.
         """
         self._begun = monotonic()
@@ -121,12 +121,12 @@ class Page:
 
 
 def deadline(seconds: float) -> float:
-    """Seconds on the wall after which a limit of so many processor seconds is given up."""
+    """Seconds of wall time after which a limit of so many processor seconds is given up."""
     return 10.0 * seconds + GRACE
 
 
 def processor_seconds(pid: int) -> float:
-    """Processor time of a process and of what it started, dead or alive; 0 where it is gone."""
+    """Processor time of a process and of what it started, dead or alive; 0 if it is gone."""
     total = 0.0
     try:
         process = psutil.Process(pid)

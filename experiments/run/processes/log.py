@@ -1,5 +1,5 @@
-"""What workers print, in one file that stays small: the beginning of what each process prints, up
-to a bound for all.
+"""The output of workers in one small file: the beginning of each process's output, up to a total
+limit.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ import os
 from pathlib import Path
 
 EACH = 256 << 10  # bytes kept of one process
-ALL = 16 << 20  # bytes that the file may hold
+ALL = 16 << 20  # maximum size of the file in bytes
 
 
 class Log:
-    """Takes what comes through pipes. That the file cannot be written ends no run: nothing in it is
+    """Collects output from pipes. A failure to write the file does not end a run: it contains no
     data.
     """
 
@@ -26,9 +26,7 @@ class Log:
         self.cut: dict[int, int] = {}
 
     def write(self, pid: int, fd: int) -> bool:
-        """Empty the pipe, at most a megabyte of it, and keep what has a place. False: nobody writes
-        there any more.
-        """
+        """Empty the pipe, at most a megabyte, and keep what fits. False: it has no writer left."""
         for _ in range(16):
             try:
                 data = os.read(fd, 1 << 16)
@@ -43,7 +41,7 @@ class Log:
         return True
 
     def end(self, pid: int) -> None:
-        """The process is gone: say what of its words was cut."""
+        """The process is gone: record how much of its output was cut."""
         self.kept.pop(pid, None)
         if cut := self.cut.pop(pid, 0):
             self._put(f"\n[{cut} bytes more of process {pid} were cut]\n".encode())

@@ -1,11 +1,10 @@
-"""Faults of the machine: they end a run honestly and never become data."""
+"""Faults of the machine: they end a run and never become data."""
 
 from __future__ import annotations
 
 import errno
 
-#: errors of the machine, whatever was asked; any other at the start is a folder that was badly
-#: chosen
+#: errors of the machine at any time; any other error at the start means a badly chosen folder
 ERRNOS = {
     errno.ENOSPC,
     errno.EDQUOT,
@@ -18,6 +17,6 @@ ERRNOS = {
 
 
 class MachineError(RuntimeError):
-    """The machine failed (a full or failing disk, no memory, killed processes): the run stops and
-    can go on later. The message says what failed and the remedy.
+    """The machine failed (a full or failing disk, no memory, killed processes): the run stops
+    and can be resumed. The message gives the fault and the remedy.
     """

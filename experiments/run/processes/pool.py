@@ -1,5 +1,5 @@
-"""Work in processes that may die: a crash or a hang costs the one item it happened at, and a fault
-of the machine none.
+"""Work in processes that may die: a crash or a hang costs only the item that caused it, and a
+fault of the machine none.
 """
 
 from __future__ import annotations
@@ -29,19 +29,19 @@ __all__ = [
     "run",
 ]
 
-MEMORY = 2 << 30  # bytes after which a worker is replaced; twice as many it cannot have
+MEMORY = 2 << 30  # bytes after which a worker is replaced; it can have at most twice as many
 TRIES = 6  # of one item that ends its process in a new way each time
 CODES = {NO_CHANNEL: "its results could not be sent", NO_MEMORY: "out of memory"}
 
 
 class WorkerError(RuntimeError):
-    """Our own code failed in a worker; the message is the worker's traceback."""
+    """The project's own code failed in a worker; the message is the worker's traceback."""
 
 
 @dataclass(frozen=True)
 class Loss:
-    """How an item was lost. status: "timeout" or "error". detail: in words. mark: what limits.mark
-    said last.
+    """How an item was lost. status: "timeout" or "error". detail: a description. mark: the last
+    limits.mark.
     """
 
     status: str
@@ -51,7 +51,7 @@ class Loss:
 
 @dataclass(frozen=True)
 class Instead:
-    """What `Task.lost` returns to have this item asked, alone, in place of the lost one."""
+    """Returned by `Task.lost` to have this item processed, alone, in place of the lost one."""
 
     item: Any
 
@@ -74,7 +74,7 @@ class Task:
 
 @dataclass
 class _Job:
-    """A task on its way. stage: "run" (all items that are left), "control", or "alone" (the next
+    """A task in progress. stage: "run" (all remaining items), "control", or "alone" (the next
     item). fates: how the processes of the next item ended.
     """
 
@@ -86,13 +86,13 @@ class _Job:
 
     @property
     def undisturbed(self) -> bool:
-        """Nothing else of ours shall run beside it: memory, or the processor, may have been what
-        ended the last one.
+        """None of our other processes shall run beside it: lack of memory or of the processor
+        may have ended the last one.
         """
         return self.stage != "run" and self.fates[-1].detail in _OUTSIDE
 
     def settle(self, result: Any) -> None:
-        """The next item has its result."""
+        """Record that the next item has its result."""
         if isinstance(result, Instead):
             self.items[len(self.results)], self.stage = result.item, "alone"
         else:
@@ -102,8 +102,8 @@ class _Job:
 
 
 def mixed(tasks: Sequence[Task]) -> list[Task]:
-    """The tasks in an order drawn once for all: slow ones are spread over the stage, so that its
-    beginning tells how long it will take.
+    """The tasks in one fixed random order: slow ones are spread over the stage, so that its
+    beginning predicts its duration.
     """
     return random.Random(0).sample(list(tasks), len(tasks))
 
@@ -118,18 +118,18 @@ def run(
     memory: int = MEMORY,
 ) -> None:
     """Run all tasks, each in a fresh process, `workers` at a time. seconds: of processor time for
-    one item (see limits). log: what processes print. prepare: called first in each process. memory:
-    bytes after which a worker is replaced; twice as many it cannot have. ValueError where a worker
-    met bad input, WorkerError with its traceback where our own code fails, MachineError where the
-    machine does.
+    one item (see limits). log: the output of processes. prepare: called first in each process.
+    memory: bytes after which a worker is replaced; it can have at most twice as many. ValueError if
+    a worker met bad input, WorkerError with its traceback if our own code fails, MachineError if
+    the machine does.
 
-    An item whose process dies, or passes the deadline, is asked again alone in a fresh process,
-    after a trivial one that must succeed. Only the same death twice makes it lost. A limit of
-    processor time needs no second try. A fresh process for each task makes results independent of
-    the number of workers: what an engine leaves in its memory is seen by the later items of the
-    same task alone. No pool of a library does this: loky and concurrent.futures break as a whole
-    when a worker dies; pebble names the task a worker died at, but broke too when one died between
-    tasks, in its engine's destructors, as some do.
+    An item whose process dies, or passes the deadline, is tried again alone in a fresh process,
+    after a trivial one that must succeed. Only the same death twice makes it lost. Exceeding a
+    limit of processor time needs no second try. A fresh process for each task makes results
+    independent of the number of workers: state that an engine leaves in its memory affects only
+    later items of the same task. No library's pool does this: loky and concurrent.futures break as
+    a whole when a worker dies; pebble names the task at which a worker died, but also broke when
+    one died between tasks, in its engine's destructors, as some do.
     """
     queue = deque(_Job(task, list(task.items)) for task in tasks)
     with Crew(log) as crew:
@@ -172,7 +172,7 @@ def _control(_) -> Callable[[int], int]:
 
 
 def _conclude(job: _Job, worker: Worker, code: int | None) -> None:
-    """What the end of a worker means for its job."""
+    """Handle the end of a job's worker."""
     said = _said(worker)
     complete = bool(worker.frames) and worker.frames[-1][0] in ("end", "recycle")
     if job.stage == "control":
@@ -191,7 +191,7 @@ def _conclude(job: _Job, worker: Worker, code: int | None) -> None:
 
 
 def _said(worker: Worker) -> list[Any]:
-    """The results that it sent. Raises what it met in place of one."""
+    """The results that it sent. Raises the error that it sent instead of one."""
     for kind, value in worker.frames:
         if kind == "refused":
             raise ValueError(value)
@@ -203,8 +203,8 @@ def _said(worker: Worker) -> list[Any]:
 def _judge_control(job: _Job, succeeded: bool, worker: Worker, code: int) -> None:
     if not succeeded:
         raise MachineError(
-            f"A process died ({job.fates[-1].detail}), and so did the next one, which was asked"
-            f" something trivial ({_fate(worker, code).detail}): it is the machine. {RESUME}"
+            f"A process died ({job.fates[-1].detail}), and so did the next one, which had a "
+            f"trivial task ({_fate(worker, code).detail}): the machine is at fault. {RESUME}"
         )
     job.stage = "alone"
 
@@ -214,7 +214,7 @@ _OUTSIDE = (_DEADLINE, "SIGKILL", "SIGTERM", "SIGINT", "SIGHUP", "SIGBUS", CODES
 
 
 def _fate(worker: Worker, code: int) -> Loss:
-    """How a process ended, for the item that it was at."""
+    """How a process ended, for its current item."""
     told = worker.page_mark
     if (
         worker.ended_for == "timeout"
@@ -232,12 +232,12 @@ def _fate(worker: Worker, code: int) -> Loss:
 def _name(number: int) -> str:
     try:
         return signal.Signals(number).name
-    except ValueError:  # of the real-time signals two alone have a name
+    except ValueError:  # only two of the real-time signals have names
         return f"signal {number}"
 
 
 def _died(job: _Job, fate: Loss) -> None:
-    """The next item of the job ended its process in this way."""
+    """Handle the death, in this way, of the process of the job's next item."""
     item = job.items[len(job.results)]
     if fate.status == "timeout" and fate.detail != _DEADLINE:
         job.settle(job.task.lost(item, fate))
@@ -246,7 +246,8 @@ def _died(job: _Job, fate: Loss) -> None:
     elif len(job.fates) + 1 == TRIES:
         ends = ", ".join(f.detail for f in (*job.fates, fate))
         raise MachineError(
-            f"One item ended its process in another way each time it was tried ({ends}). {RESUME}"
+            f"One item ended its process in a different way each time it was tried ({ends}). "
+            f"{RESUME}"
         )
     else:
         job.fates.append(fate)
@@ -254,6 +255,6 @@ def _died(job: _Job, fate: Loss) -> None:
 
 
 def _twice(detail: str) -> str:
-    """'killed twice, alone: SIGSEGV'; what ended itself, by an exit code, was not killed."""
+    """'killed twice, alone: SIGSEGV'; a process that ended by an exit code was not killed."""
     killed = detail == _DEADLINE or detail.startswith(("SIG", "signal"))
     return f"{'killed' if killed else 'ended itself'} twice, alone: {detail}"

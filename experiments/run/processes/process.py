@@ -1,4 +1,4 @@
-"""What Linux offers to leave no process behind: signals at a parent's death, and adoption of
+"""Linux facilities that leave no process behind: signals at a parent's death, and adoption of
 orphans.
 """
 
@@ -21,19 +21,18 @@ def signal_at_parents_death(which: int) -> None:
 
 
 def adopt_orphans(yes: bool = True) -> None:
-    """What descends from this process and loses its parent becomes its child, and not init's."""
+    """Descendants of this process that lose their parent become its children instead of init's."""
     _libc.prctl(_PR_SET_CHILD_SUBREAPER, int(yes), 0, 0, 0)
 
 
 def kill_group(leader: int) -> None:
-    """End a process group. It may be gone."""
+    """Kill a process group, which may be gone."""
     with contextlib.suppress(ProcessLookupError, PermissionError):
         os.killpg(leader, signal.SIGKILL)
 
 
 def kill_children(variable: str = "", value: str = "") -> None:
-    """End every child, and what is adopted in their place, until none is left; then none is a
-    zombie either.
+    """Kill every child, and the orphans adopted as a result, until none is left, not even a zombie.
 
     variable, value: only those in whose environment this was set.
     """
@@ -51,5 +50,5 @@ def kill_children(variable: str = "", value: str = "") -> None:
 def _has(process: psutil.Process, variable: str, value: str) -> bool:
     try:
         return process.environ().get(variable) == value
-    except psutil.Error:  # a zombie has none: it is waited for by whoever knows it
+    except psutil.Error:  # a zombie has none: the process that knows it waits for it
         return False

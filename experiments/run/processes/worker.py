@@ -1,5 +1,5 @@
-"""What one worker process does: it opens a task, asks its items in turn, and sends each result at
-once.
+"""The work of one worker process: it opens a task, processes its items in turn, and sends each
+result at once.
 """
 
 from __future__ import annotations
@@ -16,20 +16,20 @@ from . import limits
 
 IMPORT_SECONDS = 60.0  # at least, for `prepare` and `open`: imports of engines, not an answer
 NO_CHANNEL = 70  # exit code: the results could not be sent
-NO_MEMORY = 71  # exit code: our own code found no memory, after a method took it
+NO_MEMORY = 71  # exit code: our own code ran out of memory after a method took it
 LENGTH = struct.Struct("=Q")  # before each pickled frame (kind, value)
 
 
 class Channel:
-    """The pipe to the runner. A child that a method forked off, and that returns to us, says
-    nothing in it.
+    """The pipe to the runner. A child that a method forked and that returns to us must not write
+    to it.
     """
 
     def __init__(self, fd: int):
         self.fd, self.owner = fd, os.getpid()
 
     def send(self, kind: str, value=None) -> None:
-        """Send a frame. The process ends where that cannot be done: its results would be lost."""
+        """Send a frame. The process ends if that fails: its results would be lost."""
         if os.getpid() != self.owner:
             os._exit(0)
         body = pickle.dumps((kind, value))
@@ -42,7 +42,7 @@ class Channel:
 
 
 def work(payload: int, results: int, page: int, log: int) -> None:
-    """Do what the payload says, and never return. All four are descriptors that the runner made."""
+    """Process the payload, and never return. All four are descriptors made by the runner."""
     for standard in (1, 2):
         os.dup2(log, standard)
     os.close(log)
@@ -51,14 +51,14 @@ def work(payload: int, results: int, page: int, log: int) -> None:
     channel = Channel(results)
     try:
         _ask(payload, channel)
-    except ValueError as error:  # bad input, said in words; where it came from is in the log
+    except ValueError as error:  # bad input, described in the message; its origin is in the log
         traceback.print_exc()
         channel.send("refused", str(error))
     except MemoryError:
         os._exit(NO_MEMORY)
     except BaseException:
         channel.send("bug", traceback.format_exc())
-    os._exit(0)  # past the destructors of engines, some of which crash
+    os._exit(0)  # skips the destructors of engines, some of which crash
 
 
 def _ask(payload: int, channel: Channel) -> None:
@@ -82,10 +82,10 @@ def _ask(payload: int, channel: Channel) -> None:
 
 
 def _bound(memory: int) -> None:
-    """An allocation past twice the memory at which a worker is replaced fails, as MemoryError or
-    bad_alloc.
+    """Make an allocation fail beyond twice the memory at which a worker is replaced, as
+    MemoryError or bad_alloc.
     """
     hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
     most = 2 * memory if hard == resource.RLIM_INFINITY else min(2 * memory, hard)
     resource.setrlimit(resource.RLIMIT_DATA, (most, most))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))  # cores of engines would fill the disk
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))  # core dumps of engines would fill the disk

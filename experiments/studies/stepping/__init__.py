@@ -1,3 +1,3 @@
-"""The stepping track: engines as simulators. Does a body that moves far in a step get past what it
-had to hit?
+"""The stepping track: engines as simulators. Does a body that moves far in a step pass its
+obstacle?
 """

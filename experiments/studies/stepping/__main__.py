@@ -16,14 +16,14 @@ from .scene import SCENES, TRAVELS
 
 def main(
     runs: Annotated[
-        int, typer.Option(min=1, help="runs for each cell, each at a start phase of its own")
+        int, typer.Option(min=1, help="runs for each cell, each with its own start phase")
     ] = 40,
-    seed: Annotated[int, typer.Option(help="of the start phases and attitudes")] = 0,
+    seed: Annotated[int, typer.Option(help="seed of the start phases and attitudes")] = 0,
     only: Annotated[
-        str, typer.Option(help='contestants whose names hold this text: "bullet", "ofg", "ccd"')
+        str, typer.Option(help='contestants whose names contain this text: "bullet", "ofg", "ccd"')
     ] = "",
     scene: Annotated[
-        str, typer.Option(help='scenes whose names hold this text: "ball", "box", "rod"')
+        str, typer.Option(help='scenes whose names contain this text: "ball", "box", "rod"')
     ] = "",
     out: Annotated[
         Path | None,
@@ -32,13 +32,13 @@ def main(
         ),
     ] = None,
 ) -> None:
-    """Step bodies at obstacles they must not get past, and count those that do.
+    """Step bodies towards obstacles that they must not pass, and count those that do.
 
-    Balls and boxes fly at a wall, a rod turns at a post, 0.05 to 100 thicknesses of the obstacle
-    per step. Engines run as simulators, at their own default time step, with the remedies each has
-    against tunnelling; methods without dynamics stop a body in a plain loop. A body is past when it
-    ends beyond the obstacle's middle. Everybody gets the same random start phases: with a fixed one
-    the result is luck.
+    Balls and boxes fly at a wall, a rod rotates towards a post, by 0.05 to 100 thicknesses of the
+    obstacle per step. Engines run as simulators, at their own default time step, with each of their
+    remedies against tunnelling; methods without dynamics stop a body in a plain loop. A body has
+    passed if it ends beyond the obstacle's middle. All contestants get the same random start
+    phases: with a fixed phase the result depends on luck.
     """
     scenes = [s for s in SCENES if scene in s.name]
     contestants = [c for c in track.CONTESTANTS if only in c.name]

@@ -33,19 +33,19 @@ SECONDS = 600.0  # for one contestant in one scene
 
 
 def check(choice: SteppingChoice) -> None:
-    """ConfigError for a scene that there is not."""
+    """ConfigError for an unknown scene."""
     known = [s.name for s in SCENES]
     for name in choice.scenes:
         if name not in known:
             raise ConfigError(
-                f"stepping.scenes: there is no scene '{name}'{closest(name, known)}; the scenes are"
-                f" {', '.join(known)}."
+                f"stepping.scenes: there is no scene '{name}'{closest(name, known)}; the scenes "
+                f"are {', '.join(known)}."
             )
 
 
 def measure(store: Store, config: RunConfig) -> None:
     """Write stepping.parquet, a row per scene, contestant and travel, one process after another,
-    since steps are timed as well.
+    because steps are also timed.
 
     A contestant whose engine is absent, or dies, has one row with the reason and no counts.
     """

@@ -1,4 +1,4 @@
-"""What flies or turns at what, and when one is past the other."""
+"""The scenes: a mover that translates or rotates towards an obstacle, and when it has passed."""
 
 from __future__ import annotations
 
@@ -51,14 +51,14 @@ class Scene:
         return travel * self.thickness / (self.reach or 1.0)
 
     def start(self, travel: float, phase: float) -> float:
-        """Progress at the start: a free step and a random part of a second before contact is
-        possible.
+        """Progress at the start: a free step and a random part of a second step before contact
+        is possible.
         """
         return -self.contact - (1 + phase) * self.per_step(travel)
 
     def steps(self, travel: float, cap: float = math.inf) -> int:
-        """Steps after which an unhindered mover is past the obstacle, and three more. cap: the most
-        an engine turns a body per step.
+        """Steps after which an unhindered mover is past the obstacle, plus three. cap: the
+        largest rotation of a body that an engine makes per step.
         """
         step = min(self.per_step(travel), cap) if self.turns else self.per_step(travel)
         return math.ceil((2 * self.contact + 3 * self.per_step(travel)) / step) + 3
@@ -68,14 +68,14 @@ WALL = (0.01, 2.0, 2.0)
 SCENES = (
     Scene("ball at a wall", "ball", (0.1, 0.1, 0.1), WALL, 0.02, 0.11 + 1e-3),
     Scene("box at a wall", "box", (0.1, 0.1, 0.1), WALL, 0.02, 0.1 * math.sqrt(3) + 0.01 + 1e-3),
-    # 100 thicknesses are 1.25 rad, so that a turn is never mistaken for another and no rod starts
-    # with its other end at the post. Its half-thickness is 0.01 and the post's corner 0.0035 off
-    # the post's middle: they meet at 0.034 rad.
+    # 100 thicknesses are 1.25 rad, so rotations are never ambiguous and no rod starts with its
+    # other end at the post. Its half-thickness is 0.01 and the post's corner is 0.0035 off the
+    # post's middle: they meet at 0.034 rad.
     Scene("rod at a post", "box", (0.5, 0.01, 0.05), (0.0025, 0.0025, 0.5), 0.005, 0.04, reach=0.4),
 )
 
-#: A rod's inertia is made small against its mass, so that a hit stops its turn instead of pushing
-#: it off the post.
+#: A rod's inertia is small relative to its mass, so that a hit stops its rotation instead of
+#: pushing it off the post.
 ROD_INERTIA = 1e-3
 
 

@@ -1,4 +1,4 @@
-"""Run scenes in worlds at random start phases, and count what gets past."""
+"""Run scenes in worlds at random start phases, and count the bodies that pass their obstacle."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .worlds import BulletWorld, KinematicWorld, MujocoWorld, RapierWorld
 
 @dataclass(frozen=True)
 class Contestant:
-    """A world with one set of remedies. about: what they are."""
+    """A world with one set of remedies. about: a description of them."""
 
     name: str
     make: Callable
@@ -30,32 +30,32 @@ class Contestant:
 
 
 CONTESTANTS = (
-    Contestant("bullet", BulletWorld, "as it comes: multibodies"),
+    Contestant("bullet", BulletWorld, "default settings: multibodies"),
     Contestant(
         "bullet ccd",
         partial(BulletWorld, ccd=0.9),
-        "ccdSweptSphereRadius on multibodies, where it is ignored in silence",
+        "ccdSweptSphereRadius on multibodies, where it is silently ignored",
     ),
-    Contestant("bullet maximal", partial(BulletWorld, maximal=True), "useMaximalCoordinates alone"),
+    Contestant("bullet maximal", partial(BulletWorld, maximal=True), "useMaximalCoordinates only"),
     Contestant(
         "bullet maximal ccd",
         partial(BulletWorld, maximal=True, ccd=0.9),
         "swept sphere of 0.9 of the least half-extent, maximal coordinates",
     ),
-    Contestant("mujoco", MujocoWorld, "as it comes"),
+    Contestant("mujoco", MujocoWorld, "default settings"),
     Contestant("mujoco margin 0.02", partial(MujocoWorld, margin=0.02), "geom margin 0.02 on both"),
     Contestant("mujoco margin 0.5", partial(MujocoWorld, margin=0.5), "geom margin 0.5 on both"),
     Contestant(
         "mujoco speculative", partial(MujocoWorld, speculative=True), "the speculative flag"
     ),
-    # Of 20 boxes at 100 thicknesses 18 got past, 13 with stiff contacts; more solver iterations,
+    # Of 20 boxes at 100 thicknesses 18 passed, 13 with stiff contacts; more solver iterations or
     # another integrator changed nothing.
     Contestant(
         "mujoco speculative stiff",
         partial(MujocoWorld, speculative=True, stiff=True),
         "the speculative flag, solref of two time steps",
     ),
-    Contestant("rapier", RapierWorld, "as it comes"),
+    Contestant("rapier", RapierWorld, "default settings"),
     Contestant("rapier ccd", partial(RapierWorld, ccd=True), "ccd_enabled"),
     Contestant(
         "rapier soft ccd",
@@ -66,7 +66,7 @@ CONTESTANTS = (
         Contestant(
             spec,
             partial(KinematicWorld, method=spec),
-            f"kinematic loop that asks {spec} at every step",
+            f"kinematic loop that runs {spec} at every step",
         )
         for spec in (
             "ofg k=8",
@@ -87,7 +87,9 @@ class Run:
 
 
 def run(contestant: Contestant, scene: Scene, travel: float, rng: np.random.Generator) -> Run:
-    """One flight, or turn, at a start phase of its own, until an unhindered body would be past."""
+    """One translation, or rotation, with its own start phase, until an unhindered body would be
+    past.
+    """
     start, attitude = scene.start(travel, rng.uniform()), turned(rng, scene)
     world = contestant.make(scene, scene.per_step(travel) / _dt(contestant), start, attitude)
     steps = scene.steps(travel, world.cap)
@@ -101,15 +103,15 @@ def run(contestant: Contestant, scene: Scene, travel: float, rng: np.random.Gene
         progress = _unwrapped(scene, progress, world)
         if not math.isfinite(progress):
             break
-    # Past the obstacle's middle; a world that blew up did not hold the body either.
+    # Past the obstacle's middle; a world that blew up did not stop the body either.
     return Run(not progress < 0, taken / steps)
 
 
 def measure(
     contestants, scenes=SCENES, travels=TRAVELS, runs: int = 40, seed: int = 0
 ) -> Iterator[dict]:
-    """A row per contestant, scene and travel: tunnelled of runs, its Wilson interval, median time
-    per step.
+    """A row per contestant, scene and travel: tunnelled of runs, its Wilson interval, median
+    time per step.
     """
     for scene in scenes:
         for contestant in contestants:
@@ -171,8 +173,8 @@ def _dt(contestant: Contestant) -> float:
 
 
 def _unwrapped(scene: Scene, before: float, world) -> float:
-    """Progress after a step; an angle is taken nearest to where the world's own rate says that it
-    should be.
+    """Progress after a step; an angle is chosen nearest to the prediction from the world's own
+    rate.
     """
     now = world.progress()
     if not scene.turns or not math.isfinite(now):

@@ -1,7 +1,7 @@
-"""One scene in one engine: made, stepped, and looked at.
+"""One scene in one engine: created, stepped and observed.
 
 A world has `dt` (the engine's own default), `step()`, `progress()` and `rate()` (progress per
-second, as the engine has it).
+second, as the engine reports it).
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class BulletWorld:
 
     engine = "pybullet"
     dt = 1 / 240
-    cap = math.pi / 4  # Bullet turns no body farther in a step
+    cap = math.pi / 4  # Bullet rotates no body farther in a step
 
     def __init__(
         self,
@@ -69,8 +69,7 @@ class BulletWorld:
             useMaximalCoordinates=maximal,
             physicsClientId=c,
         )
-        # Velocities above 100 are clipped unless maxJointVelocity is raised, and it has to be
-        # raised first.
+        # Velocities above 100 are clipped unless maxJointVelocity is raised first.
         p.changeDynamics(
             b, -1, linearDamping=0, angularDamping=0, maxJointVelocity=1e9, physicsClientId=c
         )
@@ -99,8 +98,8 @@ class BulletWorld:
 
 
 class MujocoWorld:
-    """margin: of both geoms. speculative: mjENBL_SPECULATIVE. stiff: solref of two time steps, the
-    least that MuJoCo takes.
+    """margin: of both geoms. speculative: mjENBL_SPECULATIVE. stiff: solref of two time steps,
+    the minimum in MuJoCo.
     """
 
     engine = "mujoco"
@@ -225,7 +224,7 @@ class RapierWorld:
 
 
 class KinematicWorld:
-    """A plain loop: the body moves freely until the method says that the next step meets the
+    """A plain loop: the body moves freely until the method reports that the next step hits the
     obstacle, and stops there.
     """
 
@@ -241,7 +240,7 @@ class KinematicWorld:
         self.queue = []
 
     def prepare(self, steps: int) -> None:
-        """All queries of an unhindered run: what is built once per body is not the cost of a
+        """All queries of an unhindered run: the build per body is not part of the cost of a
         step.
         """
         scene, still = self.scene, Pose(position=(self.scene.reach, 0, 0))

@@ -1,3 +1,3 @@
-"""Audits of the truth: corrupted certificates, independent judges, labels a second, aims of the
+"""Audits of the truth: corrupted certificates, independent judges, labelling rate, aims of the
 families.
 """

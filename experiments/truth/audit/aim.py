@@ -1,10 +1,10 @@
-"""How well the families hit what they aim at, judged by the truth: python -m
+"""Measure how well the families achieve their aim, by the truth: python -m
 experiments.truth.audit.aim [-n CASES] [FAMILY ...]
 
-Per family and level: how many cases are certified as what; how many sweeps had to be drawn again;
-how many hits tunnel if they are missed (start and end clear); and, where the family aims at a
+Per family and level: the number of cases by certified label; the number of rejected draws of
+sweeps; the number of hits that tunnel if missed (start and end clear); and, if the family aims at a
 signed gap, the median and the worst of reached / aimed (a clear case reaches its certified
-clearance, a hit its estimated depth, which other directions may make smaller).
+clearance, a hit its estimated depth, which may be smaller in another direction).
 """
 
 from __future__ import annotations

@@ -1,12 +1,12 @@
-"""`python -m experiments.truth.audit.attack`: thousands of corrupted certificates against the
-checker.
+"""`python -m experiments.truth.audit.attack`: test the checker with thousands of corrupted
+certificates.
 
 Each mutation either makes a claim false (and must be refused), or weakens the evidence of a claim
-that stays true (and may be accepted where what is left still proves it: "redundant"). False claims
-are made false by construction: a plane stretched past the impact, a witness put where the bodies
-are apart, a label flipped. For weakened evidence an acceptance is counted as shown redundant only
-if the same mutated certificate also verifies with balls alone, without the doubles' filter (of
-bodies with more than 400 faces together: not asked, because slow).
+that stays true (and may be accepted if the remaining evidence still proves it: "redundant"). False
+claims are false by construction: a plane extended past the impact, a witness where the bodies are
+apart, a flipped label. An acceptance of weakened evidence counts as redundant only if the same
+mutated certificate also verifies by ball arithmetic alone, without the filter in doubles (not
+tested for bodies with more than 400 faces together, because it is slow).
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ FALSE, WEAKER = "must be refused", "refused unless redundant"
 
 
 def mutations(rng, query, truth):
-    """(name, kind, mutated truth) for everything that applies to this label."""
+    """(name, kind, mutated truth) of every mutation that applies to this label."""
     c = truth.certificate
     if truth.label == "uncertain":
         return

@@ -1,12 +1,12 @@
-"""`python -m experiments.truth.audit.bench`: certified labels a second on the mix of a preset
+"""`python -m experiments.truth.audit.bench`: certified labels per second on the mix of a preset
 (default: standard, else quick).
 
-A label here is everything but drawing the case: preparing its bodies, proving, building the
-certificate, and checking it. The cases are labelled in chunks, as a run does it, by as many
-processes as asked for (default 2), each timed over all its chunks; labels a second is the sum over
-processes. Processor seconds count, and of each chunk the fastest of --rounds rounds, so that a busy
-machine disturbs less; bodies are prepared afresh in each. Cases whose label is "uncertain" count as
-labelled and are shown.
+The measured time covers everything except drawing the case: preparing its bodies, proving, building
+the certificate, and checking it. The cases are labelled in chunks, as in a run, by the requested
+number of processes (default 2), each timed over all its chunks; the rate is summed over processes.
+Times are processor seconds, and for each chunk the fastest of --rounds rounds, so that a busy
+machine disturbs them less; bodies are prepared afresh in each round. Cases whose label is
+"uncertain" count as labelled and are shown.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def draw_cases(preset: str, share: int, shares: int, cases: int | None):
 
 
 def measure(preset: str, share: int, shares: int, cases: int | None, rounds: int):
-    """Seconds to prove and to check, and labels, by scenario and question."""
+    """Seconds to prove and to check, and the number of labels, by scenario and question."""
     drawn = defaultdict(list)
     for name, query in draw_cases(preset, share, shares, cases):
         drawn[name, query.question].append(query)

@@ -1,11 +1,10 @@
-"""`python -m experiments.truth.audit.crosscheck`: the labels against two judges that share nothing
-with the prover or the checker.
+"""`python -m experiments.truth.audit.crosscheck`: compare the labels with two judges that share
+nothing with the prover or the checker.
 
-CGAL's exact kernel (Debian: apt-get install libcgal-dev) judges instants in rationals: every
-overlap; of translations also the exact time and just before it; of turning sweeps rational
+CGAL's exact kernel (Debian: apt-get install libcgal-dev) tests instants in rationals: every
+overlap; for translations also the exact time and just before it; for rotating sweeps, rational
 rotations within 1e-60 of instants outside the bracket. An engine (FCL) samples every sweep densely
-in doubles. Disagreements are printed with their case; what is known about them is in
-DISAGREEMENTS.md.
+in doubles. Disagreements are printed with their case; DISAGREEMENTS.md explains the known ones.
 """
 
 from __future__ import annotations
@@ -29,8 +28,8 @@ SAMPLES = 400
 
 
 def compile_judge(folder: Path) -> Path | None:
-    """The CGAL program, built in `folder`; None with a printed reason where compiler or library are
-    missing.
+    """Build the CGAL program in `folder`; None with a printed reason if the compiler or the
+    library is missing.
     """
     compiler = shutil.which("g++") or shutil.which("c++")
     if not compiler:
@@ -66,8 +65,8 @@ def compile_judge(folder: Path) -> Path | None:
 
 
 def rational_turn(motion, t):
-    """Rational rotation matrix within about 1e-60 of Rot(k/|k|, theta t), exactly orthogonal: from
-    a rational quaternion.
+    """Rational rotation matrix within about 1e-60 of Rot(k/|k|, theta t), exactly orthogonal:
+    from a rational quaternion.
     """
     with flint.ctx.workprec(300):
         k = [arb(c) for c in vector(motion.axis)]
@@ -87,7 +86,7 @@ def instant(query, t) -> str:
 
 
 def _placed(pose, motion, t):
-    """Where a vertex is at time t, in rationals."""
+    """The position of a vertex at time t, in rationals."""
     R, turns = rotation(*map(rational, pose.quaternion)), bool(motion.angle and t)
     turn, about = rational_turn(motion, t) if turns else None, vector(motion.about)
     shift = add(vector(pose.position), vector(motion.displacement), t)
@@ -116,7 +115,7 @@ def claims(query, truth, dense=0):
     more instants of a sweep.
     """
     if truth.touching:
-        return []  # the judge's sets are closed: they meet where these touch
+        return []  # the judge's sets are closed: they intersect if these touch
     early, late = fmpq(10**9 - 1, 10**9), fmpq(10**9 + 1, 10**9)
     if query.question == "overlap":
         return [(fmpq(0), truth.label == "hit", "overlap")]
@@ -173,8 +172,8 @@ def against_cgal(program, labelled, budget: int, dense: int = 0) -> list[str]:
         f" skipped: over {budget} faces"
     )
     wrong = [
-        f"CGAL {name}: {what}: certified {'meet' if meets else 'apart'}, CGAL says"
-        f" {'meet' if a == '1' else 'apart'}"
+        f"CGAL {name}: {what}: certified {'meet' if meets else 'apart'}, CGAL reports "
+        f"{'meet' if a == '1' else 'apart'}"
         for (name, meets, what), a in zip(asked, answers)
         if meets != (a == "1")
     ]
@@ -185,7 +184,8 @@ def against_cgal(program, labelled, budget: int, dense: int = 0) -> list[str]:
 
 def against_engine(labelled) -> list[str]:
     """Disagreements with FCL's hull-hull overlap test at SAMPLES instants of every sweep of two
-    convex bodies. Below 1e-5 of the size it is not asked: its own tolerance rules there.
+    convex bodies. Gaps below 1e-5 of the size are not tested, because FCL's own tolerance
+    dominates there.
     """
     import fcl
 
@@ -259,9 +259,7 @@ def against_itself(labelled) -> list[str]:
                 f"swapped {name}: {said[0]} at {truth.t_lo:.17g} became {said[1]} at"
                 f" {other.t_lo:.17g}"
             )
-    print(
-        f"swapped: {len(labelled)} labels asked again with A and B exchanged, {len(wrong)} changed"
-    )
+    print(f"swapped: {len(labelled)} labels repeated with A and B exchanged, {len(wrong)} changed")
     return wrong
 
 
@@ -275,13 +273,13 @@ def main():
         "--faces",
         type=int,
         default=1500,
-        help="largest number of faces of both bodies that CGAL is asked about",
+        help="largest number of faces of both bodies for which CGAL is used",
     )
     parser.add_argument(
         "--dense",
         type=int,
         default=0,
-        help="instants of every sweep at which CGAL is asked besides the usual ones",
+        help="additional instants of every sweep for which CGAL is used",
     )
     parser.add_argument("--scenarios", nargs="+", help="these families only")
     args = parser.parse_args()

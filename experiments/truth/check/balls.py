@@ -1,5 +1,5 @@
-"""Exact and ball arithmetic of three-vectors for the checker: rationals (fmpq) as long as nothing
-turns, then balls (arb).
+"""Exact and ball arithmetic of three-vectors for the checker: rationals (fmpq) without rotation,
+balls (arb) with it.
 """
 
 from __future__ import annotations
@@ -10,35 +10,39 @@ from math import inf, isfinite
 from flint import arb, fmpq
 
 BITS = 256
-_RATIONAL = re.compile(r"(-?[0-9]{1,4300})(?:/([0-9]{1,4300}))?")  #: what int() takes
+#: the integers that int() accepts
+_RATIONAL = re.compile(r"(-?[0-9]{1,4300})(?:/([0-9]{1,4300}))?")
 
 
 def rational(x) -> fmpq:
-    """A double, exactly."""
+    """The exact rational value of a double."""
     return fmpq(*float(x).as_integer_ratio())
 
 
 def number(x) -> fmpq:
-    """A number of a certificate: a double, or a rational "p/q" or "p". ValueError for another."""
+    """A number of a certificate: a double, or a rational "p/q" or "p". ValueError for anything
+    else.
+    """
     if isinstance(x, str):
         if not (read := _RATIONAL.fullmatch(x)):
-            raise ValueError(f"{x[:40]!r} is no number")
+            raise ValueError(f"{x[:40]!r} is not a number")
         return fmpq(int(read[1]), int(read[2] or 1))
     return x if isinstance(x, fmpq) else rational(x)
 
 
 def finite(x):
-    """The same, a double staying a double. Raises for what is no finite number."""
+    """The same, with a double kept as a double. Raises if it is not a finite number."""
     if type(x) is not float:
         return number(x)
     if not isfinite(x):
-        raise ValueError(f"{x} is no finite number")
+        raise ValueError(f"{x} is not a finite number")
     return x
 
 
 def nearest_double(x) -> float:
-    """The double next to a number (error: one unit in the last place); infinite past their range,
-    which the filter leaves to the balls."""
+    """The double next to a number (error: one unit in the last place); infinite beyond their
+    range, which the filter leaves to the balls.
+    """
     try:
         return int(x.p) / int(x.q) if isinstance(x, fmpq) else float(x)
     except OverflowError:
@@ -84,13 +88,15 @@ def transposed(R, v) -> list:
 
 
 def norm(v) -> arb:
-    """The root of a ball that reaches below 0 is that of its upper end, and 0 below: never NaN."""
+    """The square root of a ball; for a ball that reaches below 0, from 0 to the root of its
+    upper end, never NaN.
+    """
     s = arb(dot(v, v))
     return s.sqrt() if s > 0 else arb(0, s.abs_upper().sqrt().abs_upper())
 
 
 def greatest(values):
-    """The largest: a rational where all are, else a ball."""
+    """The largest: a rational if all are rational, else a ball."""
     if all(isinstance(x, (int, fmpq)) for x in values):
         return max(values)
     best = arb(values[0])

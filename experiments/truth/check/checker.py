@@ -1,7 +1,7 @@
-"""The independent checker: it believes a label by its certificate alone (README.md beside this says
-what is in one).
+"""The independent checker: it verifies a label by its certificate alone
+(experiments/truth/README.md describes it).
 
-A label is taken apart into obligations: convex sets apart over an interval, a point inside a
+A label is decomposed into obligations: convex sets apart over an interval, a point inside a
 tetrahedron or a mesh, an exact time. Each is settled by doubles with an error bound
 (float_filter.py) or else here, by rationals and balls of 256 bits (Arb). Points, in the frame of
 geometry.Pair: x(t) = t d + Rot(k_A, theta_A t) R(q_A) (v - about_A) for A, and y(t) = dp + Rot(k_B,
@@ -46,9 +46,9 @@ class Check(NamedTuple):
 
 
 class Apart(NamedTuple):
-    """Plane n keeps the hulls of (m, 3) A and B farther apart than gap over [s, e]. frame: "W" (n
-    is fixed in space), "A" or "B" (n turns with that body). closed: the hulls may touch the plane
-    (gap 0), as convex bodies' may and a mesh's triangles not.
+    """Plane n keeps the hulls of (m, 3) A and B farther apart than gap over [s, e]. frame: "W"
+    (n is fixed in space), "A" or "B" (n rotates with that body). closed: the hulls may touch the
+    plane (gap 0), as is allowed for convex bodies but not for a mesh's triangles.
     """
 
     pair: Pair
@@ -63,8 +63,8 @@ class Apart(NamedTuple):
 
 
 class Within(NamedTuple):
-    """World point x is at time t strictly inside a body, B or A: inside the tetrahedron `corners`
-    (4, 3), or a mesh if None.
+    """World point x at time t lies strictly inside a body, B or A: inside the tetrahedron
+    `corners` (4, 3), or a mesh if None.
     """
 
     pair: Pair
@@ -75,8 +75,8 @@ class Within(NamedTuple):
 
 
 class Without(NamedTuple):
-    """Vertex v of one body lies at time t strictly outside the other body, a mesh: B's outside A if
-    of_b, else A's outside B.
+    """Vertex v of one body at time t lies strictly outside the other body, a mesh: B's outside A
+    if of_b, else A's outside B.
     """
 
     pair: Pair
@@ -95,15 +95,15 @@ def require(fact, reason):
 
 
 def check(query, truth) -> Check:
-    """Verify a Truth about a Query. Never raises; refuses what it cannot verify. An uncertain label
-    claims nothing.
+    """Verify a Truth about a Query. Never raises; refuses what it cannot verify. An uncertain
+    label makes no claim.
     """
     return check_many([(query, truth)])[0]
 
 
 def check_many(labelled, doubles=True) -> list[Check]:
-    """`check` for (query, truth) pairs, the doubles' part in one batch. doubles=False: everything
-    by balls (slow).
+    """`check` for (query, truth) pairs, with the double arithmetic in one batch. doubles=False:
+    everything by balls (slow).
     """
     verdicts, owed = [], []
     for i, (query, truth) in enumerate(labelled):
@@ -119,8 +119,9 @@ def check_many(labelled, doubles=True) -> list[Check]:
 
 
 def _settled(owed):
-    """What doubles leave open. All of it where they fail: balls then settle each by itself, and a
-    forged certificate refuses itself and not the batch."""
+    """The obligations that doubles leave open. If the batch fails, all of them: balls then
+    settle each one separately, so a forged certificate is refused without affecting the others.
+    """
     try:
         return float_filter.settle(owed)
     except Exception:
@@ -140,8 +141,9 @@ def _shown(o, *undecided):
 
 
 def _refusal(work, *given):
-    """work(*given) and the verdict on it: refused if it raises, whatever a forged certificate makes
-    it raise."""
+    """work(*given) and its verdict: refused if it raises, whatever error a forged certificate
+    causes.
+    """
     try:
         with flint.ctx.workprec(BITS):
             return work(*given), Check(True)
@@ -153,7 +155,7 @@ def _refusal(work, *given):
 
 
 def obligations(pair, truth, c):
-    """What has to be shown for a label; Refused where the certificate does not even claim it."""
+    """The obligations of a label; Refused if the certificate does not even claim it."""
     sweep = pair.query.question != "overlap"
     nan = truth.t_lo != truth.t_lo and truth.t_hi != truth.t_hi
     require(
@@ -216,7 +218,7 @@ def clear(pair, cert, start, end, gap):
             order = np.array(order, dtype=np.int64)
             require(
                 order.shape == (count,) and (np.sort(order) == np.arange(count)).all(),
-                f"{key} is no permutation of the elements",
+                f"{key} is not a permutation of the elements",
             )
         sides.append((Points(body, order), count))
     (A, na), (B, nb) = sides
@@ -271,9 +273,8 @@ def apart(o, vertices=None, near=None):
     (P), must exceed gap |n|.
 
     |f''| <= M, so f >= chord - (M h^2 / 2) x (1 - x): positive if f(s), f(e) > 0 and max + 3 min >
-    M h^2 / 2; not negative with
-    >= in place of >. vertices of Q and candidates `near` in P: those that doubles could not settle;
-    all if None.
+    M h^2 / 2; not negative with >= in place of >. vertices of Q and candidates `near` in P: those
+    that doubles could not settle; all if None.
     """
     X, n, times = o.pair.exact, [number(c) for c in o.n], (rational(o.s), rational(o.e))
     require(any(n), "a plane without a normal keeps nothing apart")
@@ -314,7 +315,7 @@ def _end(o, n, t, P, on_b):
     if not on_b:
         (RP, cP, turn_p), (RQ, cQ, turn_q) = (RQ, cQ, turn_q), (RP, cP, turn_p)
     sign = 1 if on_b else -1
-    # in space, and as P's frame at the start sees it
+    # in space, and in P's frame at the start
     normal, seen = (n, turn_p(-t, n)) if o.frame == "W" else (turn_p(t, n), n)
     m = [sign * c for c in transposed(RP, seen)]
     support = greatest([dot(m, vector(p)) for p in P]) - dot(m, cP)
@@ -325,8 +326,8 @@ def _end(o, n, t, P, on_b):
 
 
 def _bend(o, n, times, P, on_b):
-    """The bound M on |f''| over the interval, as a function of a vertex of Q. README.md
-    derives it.
+    """The bound M on |f''| over the interval, as a function of a vertex of Q. README.md derives
+    it.
     """
     X, turns = o.pair.exact, o.pair.turn_b if on_b else o.pair.turn_a
     (RP, cP, by_p), (RQ, cQ, by_q) = (X.RA, X.about_a, X.turn_a), (X.RB, X.about_b, X.turn_b)
@@ -396,22 +397,22 @@ def without(o, *_):
 
 
 def _outward(pair, of_b, t, v):
-    """Vertex v of a body at time t, relative to its point of turning."""
+    """Vertex v of a body at time t, relative to its centre of rotation."""
     X = pair.exact
     R, about, turn = (X.RB, X.about_b, pair.turn_b) if of_b else (X.RA, X.about_a, pair.turn_a)
     return turn(t, mul(R, add(vector(v), about, -1)))
 
 
 def _inward(pair, of_b, t, x):
-    """A point at time t, relative to a body's point of turning, in that body's frame."""
+    """A point at time t, relative to a body's centre of rotation, in that body's frame."""
     X = pair.exact
     R, about, turn = (X.RB, X.about_b, pair.turn_b) if of_b else (X.RA, X.about_a, pair.turn_a)
     return add(transposed(R, turn(-t, x)), about)
 
 
 def winding(mesh, y):
-    """Winding number of a closed mesh about y: signed crossings of a ray, all signs certain; None
-    if no ray tells.
+    """Winding number of a closed mesh about y: signed crossings of a ray, all signs certain;
+    None if no ray gives a decision.
     """
     for ray in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (3, 5, 7), (-7, 4, 3), (5, -8, 6), (-2, -7, 9)):
         total = 0
@@ -431,7 +432,7 @@ def winding(mesh, y):
 
 
 def exact_time(pair, cert, t_lo, t_hi):
-    """Rational t* of a translation: n touches a piece of A and one of B at t*, weights show a
+    """Rational t* of a translation: n touches a piece of A and one of B at t*, weights give a
     common point, and n.d > 0.
     """
     RA, RB, dp, d = pair.exact[:4]
@@ -453,21 +454,21 @@ def exact_time(pair, cert, t_lo, t_hi):
 
 
 def touching(pair, cert, sweep):
-    """The closed bodies share a point at a rational time: at the start, or in a translation
-    at any.
+    """The closed bodies share a point at a rational time: at the start, or in a translation at
+    any time.
     """
     t = number(cert["time"])
     require(0 <= t <= int(sweep), "the time of touching lies outside the step")
     require(
         not t or not (pair.theta_a or pair.theta_b),
-        "bodies that turn are at rational places only at the start",
+        "rotating bodies have rational positions only at the start",
     )
-    require("mesh" not in (pair.a.kind, pair.b.kind), "touching is a tag of convex pieces")
+    require("mesh" not in (pair.a.kind, pair.b.kind), "the tag `touching` needs convex pieces")
     common_point(pair, cert, t)
 
 
 def common_point(pair, cert, t):
-    """Convex weights of vertices of one piece of each body give one and the same point at time t,
+    """Convex weights of vertices of one piece of each body give the same point at time t,
     exactly.
     """
     X = pair.exact
@@ -476,7 +477,7 @@ def common_point(pair, cert, t):
         (cert["a"], pair.a, X.RA, X.about_a, -1),
         (cert["b"], pair.b, X.RB, X.about_b, 1),
     ):
-        require(side["piece"] >= 0, "a piece is counted from 0")
+        require(side["piece"] >= 0, "piece indices start from 0")
         weights, ids, piece = (
             [number(w) for w in side["weights"]],
             side["vertices"],

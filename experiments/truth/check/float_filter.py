@@ -1,12 +1,11 @@
-"""The checker's doubles: settles an obligation only by more than its rounding error, in batches;
-the rest is left to the balls.
+"""The checker's filter in doubles: settles an obligation only by more than its rounding error, in
+batches; the rest is left to the balls.
 
 Error of n.x(t) in double: at most E = 256 u (1 + |theta_A| + |theta_B|) |n|_1 reach, u = 2**-53,
-reach >= |v|_1 + |b|_1 +
-|about_A|_1 + |about_B|_1 + |dp|_1 + |d|_1. (Rotation entries 10 u, products and sums of three 6 u,
-sin and cos of a rounded theta t 2 u + 2 u |theta|, a turn about k 40 u and at most two of them, dp,
-d, t d and v - about rounded once each: together below 128 u.) Sums that may have been rounded below
-2**-1022 are left to the balls.
+reach >= |v|_1 + |b|_1 + |about_A|_1 + |about_B|_1 + |dp|_1 + |d|_1. (Rotation entries 10 u,
+products and sums of three 6 u, sin and cos of a rounded theta t 2 u + 2 u |theta|, a rotation about
+k 40 u and at most two of them, dp, d, t d and v - about rounded once each: together below 128 u.)
+Sums that may have been rounded below 2**-1022 are left to the balls.
 """
 
 from __future__ import annotations
@@ -22,8 +21,8 @@ UNIT = 2.0**-53
 
 
 def settle(obligations) -> list[tuple]:
-    """(j, vertices, near) for each obligation j that doubles leave open; indices of what is open in
-    it, None for all.
+    """(j, vertices, near) for each obligation j that doubles leave open; the indices of its open
+    parts, None for all.
     """
     apart = [(j, o) for j, o in enumerate(obligations) if type(o) is checker.Apart]
     points = [(j, o) for j, o in enumerate(obligations) if type(o) is not checker.Apart]
@@ -91,7 +90,7 @@ def _apart(jobs) -> list[tuple]:
     )
     s, e, gap = (np.array([getattr(o, name) for o in os]) for name in ("s", "e", "gap"))
     frame = np.array([o.frame for o in os])
-    # Q, the side whose vertices are asked one by one, is B where the plane turns with A
+    # Q, the side whose vertices are tested one by one, is B if the plane rotates with A
     on_b, fixed = (
         frame == "A",
         frame == "W",
@@ -154,7 +153,7 @@ def _apart(jobs) -> list[tuple]:
 
 
 def _bend(N, P, Q, n, s, e, sign, fixed, of_p, of_q):  # noqa: PLR0913 - the bound's symbols
-    """The bound M of checker._bend, a row per vertex of Q. A plane at rest takes the reach of all
+    """The bound M of checker._bend, a row per vertex of Q. A fixed plane uses the reach of all
     of P, which needs no support.
     """
     points, q_of = of_q
@@ -181,8 +180,8 @@ def _bend(N, P, Q, n, s, e, sign, fixed, of_p, of_q):  # noqa: PLR0913 - the bou
 
 
 def _points(jobs) -> list[tuple]:
-    """Points strictly inside or outside: carried into the body's frame, y with error rho; then
-    tetrahedra and meshes.
+    """Points strictly inside or outside: transformed into the body's frame, y with error rho;
+    then tetrahedra and meshes.
     """
     if not jobs:
         return []
@@ -193,7 +192,7 @@ def _points(jobs) -> list[tuple]:
     x = np.array([o.v if type(o) is checker.Without else _offset(o) for o in os])
     span = N.reach + np.abs(x).sum(1)
     between = N.dp - t[:, None] * N.d
-    # A vertex of one body (B's if of_b) as seen from the other's point of turning; a point already
+    # A vertex of one body (B's if of_b) relative to the other's centre of rotation; a point already
     # is.
     own = N.b.where(of_b, N.a)
     out = own.turned(t, np.einsum("tij,tj->ti", own.R, x - own.about)) + np.where(
@@ -217,8 +216,8 @@ def _points(jobs) -> list[tuple]:
 
 
 def _in_tetrahedra(corners, y, rho):
-    """Four determinants of corners relative to y have one sign, each by more than 32 L^2 (rho + 8 u
-    L).
+    """Four determinants of corners relative to y have the same sign, each by more than 32 L^2
+    (rho + 8 u L).
     """
     w = corners - y[:, None, :]
     L = np.abs(w).max(axis=(1, 2)) + rho
@@ -241,7 +240,7 @@ def _in_tetrahedra(corners, y, rho):
 
 
 def _offset(o):
-    """x at time t, relative to the body's point of turning there, in doubles, each coordinate
+    """x at time t, relative to the body's centre of rotation, in doubles, each coordinate
     rounded once.
     """
     q = o.pair.query
@@ -253,8 +252,8 @@ def _offset(o):
 
 
 def winding(mesh, y, rho):
-    """Winding number of a mesh about y, each coordinate of which is off by at most rho; None where
-    doubles cannot tell.
+    """Winding number of a mesh about y, each coordinate of which has an error of at most rho;
+    None if doubles cannot decide.
     """
     low, high = geometry.face_boxes(mesh)
     for axis in range(3):
@@ -289,8 +288,8 @@ def winding(mesh, y, rho):
 
 
 def crossed(mesh, y, ray) -> np.ndarray:
-    """(m,) bool: the faces that the line through y (rationals or balls) along `ray` may cross, as
-    far as doubles can tell.
+    """(m,) bool: the faces that the line through y (rationals or balls) along `ray` may cross,
+    as far as doubles can decide.
     """
     y0 = np.array([nearest_double(c) if not hasattr(c, "mid") else float(c.mid()) for c in y])
     blur = sum(float(c.rad()) for c in y if hasattr(c, "rad")) * 2
@@ -309,8 +308,8 @@ def crossed(mesh, y, ray) -> np.ndarray:
 
 
 def _rows(arrays):
-    """Of all arrays' rows in one block: the first row of each array, and the array that each row is
-    of.
+    """The rows of all arrays in one block: the first row of each array, and the array of each
+    row.
     """
     counts = np.array([len(a) for a in arrays])
     return np.cumsum(counts) - counts, np.repeat(np.arange(len(arrays)), counts)

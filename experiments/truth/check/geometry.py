@@ -1,5 +1,5 @@
-"""What the checker's two arithmetics share: a query's poses and motion as doubles and as exact
-numbers; bodies as elements.
+"""Data shared by the checker's two arithmetics: a query's poses and motion as doubles and as
+exact numbers; bodies as elements.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ CACHES = _reaches, _parts, _boxes, _integers = tuple(WeakKeyDictionary() for _ i
 
 
 class Pair:
-    """A query taken apart, in a frame that moves with B's displacement and has its origin where A's
-    point of turning starts.
+    """A query decomposed in a frame that moves with B's displacement and has its origin at the
+    start of A's centre of rotation.
 
-    There A's point of turning moves by d = d_A - d_B, and B's stays at dp. row: the numbers in
+    There A's centre of rotation moves by d = d_A - d_B, and B's stays at dp. row: the numbers in
     doubles for the filter: q_A, q_B (4 each), dp, d, the axes divided by their largest component (3
-    each), the points of turning about_A, about_B (3 each), the angles, and a bound on |v|_1 + |b|_1
-    + |about_A|_1 + |about_B|_1 + |dp|_1 + |d|_1.
+    each), the centres of rotation about_A, about_B (3 each), the angles, and a bound on |v|_1 +
+    |b|_1 + |about_A|_1 + |about_B|_1 + |dp|_1 + |d|_1.
     """
 
     def __init__(self, query):
@@ -62,7 +62,7 @@ class Pair:
 
     @cached_property
     def exact(self):
-        """Rationals, but for the unit axes, whose length is a root: balls."""
+        """Rationals, except the unit axes, whose length is a root: balls."""
         q = self.query
         RA, RB = (rotation(*map(rational, p.quaternion)) for p in (q.pose_a, q.pose_b))
         dp = add(centre(q.pose_b, q.motion_b), centre(q.pose_a, q.motion), -1)
@@ -71,7 +71,7 @@ class Pair:
         return Exact(RA, RB, dp, d, *turns, vector(self.about_a), vector(self.about_b))
 
     def turn_a(self, t, v):
-        """Rot(k_A, theta_A t) v in balls; v itself where nothing turns, so that rationals stay
+        """Rot(k_A, theta_A t) v in balls; v itself without rotation, so that rationals stay
         rational.
         """
         return self.exact.turn_a.by(t, v)
@@ -81,8 +81,8 @@ class Pair:
 
 
 class Turn(NamedTuple):
-    """k: the unit axis (balls, or 0 where nothing turns). theta: the angle over the step. axis: as
-    it is given, in rationals.
+    """k: the unit axis (balls, or 0 without rotation). theta: the angle over the step. axis: as
+    given, in rationals.
     """
 
     k: list
@@ -90,7 +90,7 @@ class Turn(NamedTuple):
     axis: list
 
     def by(self, t, v):
-        """Rot(k, theta t) v in balls; v itself where it does not turn, so that rationals stay
+        """Rot(k, theta t) v in balls; v itself without rotation, so that rationals stay
         rational.
         """
         if not self.theta or not t or not any(self._off_axis(v)):
@@ -99,7 +99,7 @@ class Turn(NamedTuple):
         return add(add([c * x for x in v], cross(self.k, v), s), self.k, (1 - c) * dot(self.k, v))
 
     def across(self, v):
-        """|v x k|: 0 and no ball where v is along the axis."""
+        """|v x k|: exactly 0, not a ball, if v is along the axis."""
         off = self._off_axis(v)
         return norm(off) / norm(self.axis) if self.theta and any(off) else 0
 
@@ -108,8 +108,8 @@ class Turn(NamedTuple):
 
 
 class Exact(NamedTuple):
-    """RA, RB: rows of the rotations at the start. dp, d: see Pair. about: points of turning. All
-    but turns.k in rationals.
+    """RA, RB: rows of the rotations at the start. dp, d: see Pair. about: centres of rotation.
+    All but turns.k in rationals.
     """
 
     RA: list
@@ -123,8 +123,8 @@ class Exact(NamedTuple):
 
 
 def centre(pose, motion) -> list:
-    """Where a body's point of turning starts, in the world, in rationals; its position where it
-    does not turn.
+    """The start of a body's centre of rotation, in the world, in rationals; its position without
+    rotation.
     """
     if not (motion.angle and motion.about.any()):
         return vector(pose.position)
@@ -146,8 +146,8 @@ def _scaled(axis):
 
 
 class Points:
-    """Vertices of a body's elements in a given order (n integers or None); `of(lo, hi)` are those
-    of elements lo to hi - 1.
+    """Vertices of a body's elements in a given order (n integers or None); `of(lo, hi)` are
+    those of elements lo to hi - 1.
     """
 
     def __init__(self, body, order):
@@ -180,7 +180,7 @@ class Points:
 
 
 def elements(body):
-    """The convex sets that a body is made of as far as planes go: its pieces, or the triangles of a
+    """The convex sets that make up a body for the planes: its pieces, or the triangles of a
     mesh.
     """
     return body.faces if body.kind == "mesh" else body.pieces
@@ -195,7 +195,7 @@ def parts(body):
             part, before = np.arange(len(body.vertices)), None
             while (
                 not np.array_equal(part, before) and part[body.faces].any()
-            ):  # all 0: one part, as most bodies are
+            ):  # all 0: one part, as for most bodies
                 before, low = part.copy(), part[body.faces].min(axis=1)
                 for i in range(3):
                     np.minimum.at(part, body.faces[:, i], low)

@@ -1,4 +1,4 @@
-"""Re-check labels with the checker alone: what a third party runs on stored certificates."""
+"""Verify labels with the checker alone, as a third party does with stored certificates."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ BATCH = 64
 @dataclass
 class Verification:
     """verified: certified labels ("hit", "clear") that the checker accepts, by label. uncertain:
-    labels that claim nothing, by reason. refused: (position, label, reason) of every label that the
+    labels without a claim, by reason. refused: (position, label, reason) of every label that the
     checker does not accept: there should be none.
     """
 
@@ -48,8 +48,8 @@ class Verification:
 def verify(
     labelled: Iterable[tuple[Query, Truth]], advance: Callable[[int], None] = lambda n: None
 ) -> Verification:
-    """Check every (query, truth) with the checker alone; `advance(n)` is told of every n labels
-    done. Never raises.
+    """Check every (query, truth) with the checker alone; `advance(n)` is called after every n
+    labels. Never raises.
     """
     result, labelled, position = Verification(), iter(labelled), 0
     while batch := list(islice(labelled, BATCH)):

@@ -1,3 +1,3 @@
-"""The prover: it proposes a label and its certificate. Nothing it says counts before the checker
-agrees.
+"""The prover: it proposes a label and its certificate. A proposal counts only if the checker
+accepts it.
 """

@@ -1,9 +1,9 @@
-"""A plane between two convex point sets, or the proof that there is none, in whole numbers.
+"""A separating plane between two convex point sets, or the proof that there is none, in integers.
 
-A normal n separates A from B if n.c >= 0 for every c = b - a. The normals still possible form a
-cone, kept by its extreme rays in order. A normal amid them is tried; the pair of vertices that
-refutes it cuts the cone, until a normal stands or nothing is left. Sizes, however unlike, and thin
-bodies do not matter: nothing is compared with a tolerance.
+A normal n separates A from B if n.c >= 0 for every c = b - a. The remaining candidate normals form
+a cone, stored as its extreme rays in order. A normal in its interior is tried; the pair of vertices
+that refutes it cuts the cone, until a normal holds or nothing is left. The method is robust to very
+different sizes and to thin bodies, because it uses no tolerance.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from flint import fmpz_mat
 
 from experiments.truth.check.balls import cross, dot
 
-ROUNDS = 400  #: cuts before giving up; some twenty do
+ROUNDS = 400  #: cuts before giving up; some twenty suffice
 
 
 def separating(*pairs: tuple[list, list]) -> list | None:
-    """n with n.a <= n.b for all points of A and B, in each pair (A, B); whole numbers. None if
+    """n with n.a <= n.b for all points of A and B, in each pair (A, B); integers. None if there is
     none.
 
-    Points are rationals. Pairs beyond the first are such as the same two sets at another time.
+    Points are rationals. Further pairs are, for example, the same two sets at another time.
     """
     common = lcm(*{int(c.q) for pair in pairs for side in pair for x in side for c in x})
     pairs = tuple(tuple(_whole(side, common) for side in pair) for pair in pairs)
@@ -41,7 +41,7 @@ def _whole(points: list, common: int) -> tuple[list, fmpz_mat]:
 
 
 def _within(cone: list, pairs) -> list | None:
-    """A separating normal in a cone; None if it holds none."""
+    """A separating normal in a cone; None if it contains none."""
     for _ in range(ROUNDS):
         if not cone:
             return None
@@ -55,7 +55,7 @@ def _within(cone: list, pairs) -> list | None:
 
 
 def _refuting(n: list, pair) -> list | None:
-    """The difference b - a of the vertices that reach farthest over a plane, if they do."""
+    """The difference b - a of the vertices that reach farthest across a plane, if they cross it."""
     (A, rows_a), (B, rows_b) = pair
     column = fmpz_mat([[c] for c in n])
     tops, lows = (rows_a * column).entries(), (rows_b * column).entries()
@@ -75,7 +75,7 @@ def _quarters(c: list) -> list[list]:
 
 
 def _amid(cone: list) -> list:
-    """The sum of the rays at about one length each; the ray itself where there is one."""
+    """The sum of the rays, each at about unit length; the ray itself if there is only one."""
     bits = [max(abs(c) for c in ray).bit_length() for ray in cone]
     most = max(bits)
     return _reduced([sum(c << (most - b) for c, b in zip(row, bits)) for row in zip(*cone)])

@@ -1,9 +1,9 @@
 """The exact time of impact of two convex bodies in translation: the linear program min t, t d in B
 - A, solved in rationals.
 
-A support-function simplex: three points of B - A whose triangle the ray along d pierces; the
+A support-function simplex: three points of B - A whose triangle is pierced by the ray along d; the
 support point of the triangle's plane replaces one of them until none is lower (Snethen 2008 calls
-the triangle a portal). Doubles choose the first triangle.
+the triangle a portal). Doubles select the first triangle.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ ROUNDS = 60
 
 
 def exact_time(query: Query, piece_a: int, piece_b: int, plane) -> dict | None:
-    """The certificate's `exact` for these pieces, from a plane (3 doubles) near the touching one;
-    None where it degenerates.
+    """The certificate's `exact` for these pieces, from a plane (3 doubles) near the touching
+    one; None if it degenerates.
     """
     a, b = query.a.pieces[piece_a], query.b.pieces[piece_b]
     d = add(vector(query.motion.displacement), vector(query.motion_b.displacement), -1)
@@ -83,8 +83,8 @@ def exact_time(query: Query, piece_a: int, piece_b: int, plane) -> dict | None:
 
 
 def _pierced(c, d):
-    """Convex weights of the point where the line along d pierces triangle c; None if it misses or
-    runs in the plane.
+    """Convex weights of the point where the line along d pierces triangle c; None if it misses
+    or is parallel to the plane.
     """
     w = [dot(d, cross(c[(k + 1) % 3], c[(k + 2) % 3])) for k in range(3)]
     total = sum(w)
@@ -99,8 +99,8 @@ def _triples(n):
 
 
 def _portals(query, a, b, plane):
-    """Triples of vertex pairs near the plane's supports whose triangle the ray seems to pierce, the
-    best conditioned first.
+    """Triples of vertex pairs near the plane's supports whose triangle the ray appears to
+    pierce, the best conditioned first.
     """
     A, B = a @ query.pose_a.rotation.T, b @ query.pose_b.rotation.T
     n = np.array(plane) / np.linalg.norm(plane)

@@ -1,4 +1,4 @@
-"""A common point of two point sets in one plane, in rationals."""
+"""A common point of two coplanar point sets, in rationals."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from flint import fmpq
 def meeting(A: list, B: list, normal: list) -> tuple[list, list] | None:
     """Convex weights that give one point of the hulls of A and of B, which lie in one plane.
 
-    Exact, and without a tolerance: a corner of one in the other, or two edges that cross.
+    Exact, without a tolerance: a corner of one in the other, or two edges that cross.
     """
     drop = max(range(3), key=lambda i: abs(normal[i]))
     flat = [[[x[i] for i in range(3) if i != drop] for x in side] for side in (A, B)]
@@ -37,7 +37,7 @@ def _turn(p, q, r):
 
 
 def _hull(points: list) -> list[int]:
-    """Indices of the corners of the hull, counter-clockwise; one or two where it is flat."""
+    """Indices of the corners of the hull, counter-clockwise; one or two if it is degenerate."""
     order = sorted(range(len(points)), key=points.__getitem__)
     chains = []
     for way in (order, order[::-1]):
@@ -80,7 +80,7 @@ def _along(points: list, ring: list[int], p) -> dict | None:
 
 
 def _crossing(p, q, r, s) -> tuple | None:
-    """The shares of two segments at which they cross; None for parallel ones."""
+    """The parameters of two segments at which they cross; None for parallel ones."""
     one, other = _turn(r, s, p), _turn(r, s, q)
     if one == other:
         return None

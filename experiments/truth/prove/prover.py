@@ -1,5 +1,5 @@
-"""Proposes a Truth with its certificate. The search runs natively; nothing it says is believed
-before the checker has agreed.
+"""Propose a Truth with its certificate. The search is native; its result counts only after the
+checker has accepted it.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ solids: WeakKeyDictionary[Body, _native.Solid] = WeakKeyDictionary()
 
 
 def prove(query: Query) -> Truth:
-    """Propose a label and its certificate. Never raises for a valid query and never hangs: else
-    "uncertain" with a reason.
+    """Propose a label and its certificate. Never raises for a valid query and never hangs:
+    otherwise "uncertain" with a reason.
     """
     try:
         return _prove(query)
@@ -44,7 +44,8 @@ def _prove(query: Query) -> Truth:
         else:
             found = _native.sweep(pair, a, b, EFFORT, seeds)
             if found["label"] == "hit" and found["start"] == "clear" and found["t_lo"] == 0:
-                # Apart by so little that no segment of time was gained: the planes of the start.
+                # Apart by so little that no segment of time was gained: use the planes at the
+                # start.
                 found = {**found, "tree": _native.instant(pair, a, b, 0.0, EFFORT, seeds)["tree"]}
         stuck = (
             [at for at in found["stuck"] if at not in planes]
@@ -65,8 +66,8 @@ def _prove(query: Query) -> Truth:
 
 
 def _tagged(query, truth, planes) -> Truth:
-    """With the tag and its witness, where one of the pairs that needed an exact plane does
-    touch.
+    """The truth with the tag and its witness, if one of the pairs that needed an exact plane
+    touches.
     """
     for (i, j), p in planes.items():
         if found := witness(query, i, j, p):
@@ -89,8 +90,8 @@ def uncertain(reason: str) -> Truth:
 
 
 class _Proposal:
-    """What the native search found, as a Truth with its certificate. planes: those that it was
-    given, by number.
+    """The result of the native search as a Truth with its certificate. planes: the planes given
+    to it, by number.
     """
 
     def __init__(self, query: Query, planes: list[Plane]):
@@ -151,7 +152,7 @@ class _Proposal:
         return apart
 
     def tree(self, node, start, end) -> list:
-        """The native tree, without what lies past the interval's end: it was proved before an
+        """The native tree, without the parts past the interval's end: it was proved before an
         earlier impact was found.
         """
         segments, split = node
@@ -174,13 +175,13 @@ class _Proposal:
 
 
 def _wide(n) -> list:
-    """Three doubles, or where those do not do, three rationals as "p/q"."""
+    """Three doubles, or if those do not suffice, three rationals as "p/q"."""
     return [hi if lo == 0 else str(Fraction(hi) + Fraction(lo)) for hi, lo in zip(n[:3], n[3:])]
 
 
 def _inside(query, found, t) -> dict:
-    """The native point is relative to A's point of turning and B's displacement; the certificate's
-    is in the world.
+    """The native point is relative to A's centre of rotation and B's displacement; the
+    certificate's is in the world.
     """
     point = [Fraction(hi) + Fraction(lo) for hi, lo in zip(found["point"][:3], found["point"][3:])]
     shift = add(

@@ -1,9 +1,9 @@
-"""Planes and common points of convex pieces that touch, in rationals: what no rounded search can
+"""Planes and common points of touching convex pieces, in rationals, which no rounded search can
 propose.
 
-Two pieces whose interiors are disjoint have a plane between them; cone.py finds it in whole
-numbers. Where they turn it must hold for some time, so a plane is sought that parts them at a later
-instant too.
+Two pieces with disjoint interiors have a separating plane; cone.py finds it in integers. If they
+rotate, it must hold for some time, so the search requires that it also separates them at a later
+instant.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from ofg import Query
 from .cone import separating
 from .meet import meeting
 
-SPANS = tuple(10.0**-k for k in range(10))  #: of the step: how long a plane is tried to hold
+SPANS = tuple(10.0**-k for k in range(10))  #: of the step: times for which a plane is tested
 
 
 @dataclass(frozen=True)
 class Plane:
-    """A plane with normal n (rationals, from A to B) that keeps two pieces apart over [0, end], in
-    frame "W", "A" or "B".
+    """A plane with normal n (rationals, from A to B) that keeps two pieces apart over [0, end],
+    in frame "W", "A" or "B".
     """
 
     n: list
@@ -38,8 +38,8 @@ class Plane:
 
 
 class Pieces:
-    """Piece i of A and piece j of B at t = 0, relative to A's point of turning: exact vertices, and
-    doubles of them.
+    """Piece i of A and piece j of B at t = 0, relative to A's centre of rotation: exact
+    vertices, and doubles of them.
     """
 
     def __init__(self, query: Query, i: int, j: int):
@@ -51,8 +51,8 @@ class Pieces:
         self.turns = bool(X.turn_a.theta or X.turn_b.theta)
 
     def swept(self) -> list:
-        """A's vertices at t = 0 and at t = 1, where nothing turns: the hull of what A sweeps, as
-        seen from B.
+        """A's vertices at t = 0 and at t = 1, without rotation: the hull of A's sweep relative
+        to B.
         """
         return self.A + [add(x, self.d) for x in self.A]
 
@@ -63,7 +63,7 @@ class Pieces:
         return a, [add(pair.turn_b(t, add(y, X.dp, -1)), X.dp) for y in self.B]
 
     def back(self, frame: str, t, x: list) -> list:
-        """A later point as a plane of a frame sees it that is kept as it is at the start."""
+        """A later point in a plane's frame, in which the plane stays as it is at the start."""
         turn = {"A": self.pair.turn_a, "B": self.pair.turn_b}.get(frame)
         return [_middle(c) for c in (turn(-rational(t), x) if turn else x)]
 
@@ -78,8 +78,8 @@ def _middle(c) -> fmpq:
 
 
 def plane(query: Query, i: int, j: int) -> Plane | None:
-    """A plane between piece i of A and piece j of B, which touch or nearly do, over as much of the
-    step as can be shown.
+    """A plane between piece i of A and piece j of B, which touch or nearly do, over as much of
+    the step as can be shown.
     """
     with flint.ctx.workprec(BITS):
         p = Pieces(query, i, j)
@@ -93,8 +93,8 @@ def plane(query: Query, i: int, j: int) -> Plane | None:
 
 
 def witness(query: Query, i: int, j: int, found: Plane) -> dict | None:
-    """A common point of two pieces that a plane of `plane` keeps apart: the certificate's
-    `touching`. None where there is none.
+    """A common point of two pieces separated by a plane of `plane`: the certificate's
+    `touching`. None if there is none.
     """
     with flint.ctx.workprec(BITS):
         p = Pieces(query, i, j)
@@ -126,7 +126,7 @@ def _weights(piece, pairs) -> dict:
 
 
 def _turning(p: Pieces) -> Plane | None:
-    """The plane that can be shown to hold longest, in the first frame in which one can."""
+    """The plane that can be shown to hold longest, in the first frame that has one."""
     at_rest = separating((p.A, p.B))
     if at_rest is None:
         return None
@@ -163,7 +163,7 @@ def _meeting(A: list, B: list) -> tuple[list, list] | None:
         [fmpq(1)] * len(A) + [fmpq(0)] * len(B) + [fmpq(1)],
         [fmpq(0)] * len(A) + [fmpq(1)] * len(B) + [fmpq(1)],
     ]
-    # Relative to a point of A and in units of the size, or the solver's tolerance would be one of
+    # Relative to a point of A and in units of the size, or the solver's tolerance would be a
     # length.
     a, b = (
         np.array([[nearest_double(c) for c in add(x, A[0], -1)] for x in side]) for side in (A, B)
@@ -190,8 +190,8 @@ def _meeting(A: list, B: list) -> tuple[list, list] | None:
 
 
 def _solved(rows: list) -> list | None:
-    """A solution of the linear equations [matrix | right side]; free unknowns are 0. None if there
-    is none.
+    """A solution of the linear equations [matrix | right side]; free unknowns are 0. None if
+    there is none.
     """
     reduced, rank = fmpq_mat(rows).rref()
     unknowns = len(rows[0]) - 1

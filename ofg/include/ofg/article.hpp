@@ -1,13 +1,13 @@
-// The article, step by step, as its author wrote it: plain loops, no bound, no rejection, no
-// repair. Kara, "Opposing Face Geometry", GameDev.net 2004. ARTICLE.md beside the library names for
-// each of his sentences the function here that does it. `ofg::overlap` and `ofg::sweep` give the
-// same answers with accelerations; a test and the fuzzer compare them.
+// The article, step by step, as its author wrote it: plain loops, without bounds, rejections or
+// repairs. Kara, "Opposing Face Geometry", GameDev.net 2004. ARTICLE.md names the function here for
+// each sentence of the article. `ofg::overlap` and `ofg::sweep` give the same answers with
+// accelerations; a test and the fuzzer compare them.
 #pragma once
 #include "ofg.hpp"
 
 namespace ofg::article {
 
-// What the steps of one query share: the two meshes, A's places in B's frame, and the memory.
+// Data shared by the steps of one query: the two meshes, A's poses in B's frame, and the memory.
 template <class T>
 struct Objects {
   const Mesh<T>&a, &b;
@@ -20,8 +20,8 @@ struct Objects {
   ofg::detail::Window<T> step() const { return {0, 1, start, end}; }
 };
 
-// Step 1. Bounding spheres of the objects apart: no collision. Of moving objects at the start, read
-// literally; `Broad::swept` has the spheres swept along the motion.
+// Step 1. If the bounding spheres of the objects are disjoint: no collision. For moving objects at
+// the start, the literal reading; `Broad::swept` sweeps the spheres along the motion.
 template <class T>
 bool bounding_spheres_apart(Objects<T>& o, bool moving) {
   ++o.answer.counts.spheres;
@@ -66,7 +66,7 @@ void find_radius(const Mesh<T>& m, Selection<T>& s) {
   s.radius = std::sqrt(most) + rounding<T> * m.extent;
 }
 
-// Steps 2 to 5 and 7. `spheres`: with the bounding radii, which a moving query forgoes.
+// Steps 2 to 5 and 7. `spheres`: with the bounding radii, which a moving query does not need.
 template <class T>
 void select_faces(Objects<T>& o, bool spheres) {
   const Transform<T> to_a(o.start.inverse()), to_b(o.start);
@@ -78,7 +78,7 @@ void select_faces(Objects<T>& o, bool spheres) {
   if (spheres) find_radius(o.b, o.w.b);
 }
 
-// Step 6. Bounding spheres of the selections apart: no collision.
+// Step 6. If the bounding spheres of the selections are disjoint: no collision.
 template <class T>
 bool selection_spheres_apart(Objects<T>& o) {
   ++o.answer.counts.spheres;
@@ -88,8 +88,8 @@ bool selection_spheres_apart(Objects<T>& o) {
 }
 
 // Step 8. Face against face, the closest first, until two meet. A is at `pose` in B's frame. scale:
-// a bound on all coordinates, which tells rounding from distance; lengths are taken in a unit of
-// it, so that no product leaves the range of numbers.
+// a bound on all coordinates, which separates rounding from distance; lengths are in a unit derived
+// from it, so that no product overflows or underflows.
 template <class T>
 bool faces_meet(Objects<T>& o, const Transform<double>& pose, T scale) {
   const T unit = unit_for(scale);
@@ -106,7 +106,7 @@ bool faces_meet(Objects<T>& o, const Transform<double>& pose, T scale) {
   return false;
 }
 
-// Moving objects, steps 3 and 4: each vertex of A's selection is joined with its copy at the end of
+// Moving objects, steps 3 and 4: each vertex of A's selection is joined to its copy at the end of
 // the step, rotated before it is translated, and this virtual edge is tested against B's selection.
 // Stops at the first hit.
 template <class T>
@@ -130,8 +130,8 @@ bool virtual_edges_meet(Objects<T>& o, T scale, ofg::detail::Contact& contact) {
   return false;
 }
 
-// The second way to the time of impact: move half of the step and test; if nothing met, move half
-// of what is left, and so on. NaN where none of at most `halvings` moves meets.
+// The second way to compute the time of impact: move half of the step and test; if nothing meets,
+// move half of the remainder, and so on. NaN if none of at most `halvings` moves meets.
 template <class T>
 double halving_time(Objects<T>& o, T scale) {
   double t = 0;
@@ -143,8 +143,8 @@ double halving_time(Objects<T>& o, T scale) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// The time of a virtual edge's hit, in the way that was asked for. The faces that met stay those of
-// the edge.
+// The time of a virtual edge's hit, by the chosen method. The faces that met stay those of the
+// edge.
 template <class T>
 double time_of_impact(Objects<T>& o, T scale, const ofg::detail::Contact& contact) {
   const Answer before = o.answer;
@@ -175,8 +175,8 @@ Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Opt
 
 // The moving objects, steps 1 to 6: step 1 is in `track`; step 2 is the selection, without radii
 // and without step 6. By default the faces at both ends are tried first, since then "there is no
-// need to interpolate the collision time", which is 0 or 1; `Order::steps` is his list of steps
-// read literally, virtual edges first.
+// need to interpolate the collision time", which is 0 or 1; `Order::steps` is the article's list of
+// steps read literally, virtual edges first.
 template <class T>
 Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& options,
              Workspace<T>& w) {
@@ -211,7 +211,7 @@ Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Optio
 }
 
 // Concave objects, steps 1 to 3: the piece of A closest to the whole of B, the piece of B closest
-// to that piece, and these two go through the algorithm.
+// to that piece; the algorithm then tests these two.
 template <class T, class Ask>
 Answer closest_pieces(const Body<T>& a, const Body<T>& b, const Track& track, Ask ask) {
   Counts counts;

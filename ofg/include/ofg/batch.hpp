@@ -5,7 +5,7 @@
 namespace ofg {
 namespace detail {
 
-// The first n pairs, and as many more that nobody asks as fill a register.
+// The first n pairs, and unused ones to fill a register.
 inline int fill_up(PosedPairs& pairs, int n) {
   const int padded = (n + lanes<float> - 1) / lanes<float> * lanes<float>;
   for (int i = n; i < padded; ++i) {
@@ -22,7 +22,8 @@ inline void move_pair(PosedPairs& pairs, int from, int to) {
   pairs.size_b[to] = pairs.size_b[from], pairs.gap[to] = pairs.gap[from];
 }
 
-// Screens up to most_posed pairs at once: a few axes for all, then portals for the rest, closed up.
+// Screens up to most_posed pairs at once: a few axes for all, then portals for the remaining pairs,
+// compacted.
 template <class T>
 void screen(const Mesh<T>& a, const Mesh<T>& b, const Pose* pa, const Pose* pb, int n,
             Screened* out) {
@@ -53,7 +54,7 @@ void screen(const Mesh<T>& a, const Mesh<T>& b, const Pose* pa, const Pose* pb, 
   for (int i = 0; i < left; ++i) out[rest[i]] = Screened(verdict[i]);
 }
 
-// The one pair of meshes that is asked of two bodies whatever their pose; none of bodies in several
+// The one pair of meshes that is tested for two bodies at every pose; none if a body has several
 // pieces.
 template <class T>
 const Mesh<T>* only_mesh(const Body<T>& body, const Options& o) {
@@ -63,7 +64,7 @@ const Mesh<T>* only_mesh(const Body<T>& body, const Options& o) {
 
 }  // namespace detail
 
-// What `overlap` answers at each of n pairs of poses. Reserve `w` for both bodies first.
+// The answers of `overlap` at each of n pairs of poses. First reserve `w` for both bodies.
 template <class T>
 void overlap_many(const Body<T>& a, const Body<T>& b, const Pose* pa, const Pose* pb, std::size_t n,
                   const Options& o, Workspace<T>& w, Answer* answers) {

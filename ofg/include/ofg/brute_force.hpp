@@ -1,6 +1,6 @@
-// The reference that OFG must equal when k is no less than the number of faces: every face against
-// every face and, in a sweep, every vertex's virtual edge against every face. Plain loops, no
-// selection, no rejection but bounding boxes of faces.
+// The reference that OFG must equal if k is at least the number of faces: every face against every
+// face and, in a sweep, every vertex's virtual edge against every face. Plain loops without
+// selection; only bounding boxes of faces reject pairs.
 #pragma once
 #include "ofg.hpp"
 
@@ -45,7 +45,7 @@ bool surfaces_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b,
 
 }  // namespace detail
 
-// Do the surfaces of two whole bodies meet at the start of `track`?
+// Whether the surfaces of two whole bodies meet at the start of `track`.
 template <class T>
 Answer overlap(const Body<T>& a, const Body<T>& b, const Track& track) {
   Answer answer;
@@ -57,8 +57,8 @@ Answer overlap(const Body<T>& a, const Body<T>& b, const Track& track) {
   return answer;
 }
 
-// Does any of A's virtual edges meet a face of B, or do the surfaces meet at either end? Time: that
-// of the earliest virtual edge.
+// Whether any of A's virtual edges meets a face of B, or the surfaces meet at either end. Time:
+// that of the earliest virtual edge.
 template <class T>
 Answer sweep(const Body<T>& a, const Body<T>& b, const Track& track) {
   Answer answer;

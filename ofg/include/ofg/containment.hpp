@@ -1,5 +1,4 @@
-// Is a point inside a body? Surfaces that do not meet still overlap as solids when one lies inside
-// the other.
+// Point-in-body tests. Disjoint surfaces still overlap as solids if one lies inside the other.
 #pragma once
 #include "mesh.hpp"
 #include "motion.hpp"
@@ -21,9 +20,9 @@ bool inside_convex(const Mesh<T>& m, const Vec3<T>& p) {
   return true;
 }
 
-// Is the winding number of a closed mesh not 0 (van Oosterom and Strackee 1983)? The solid angles
-// of its faces sum to 4 pi times that number, which is 2 where a shell lies in another, and
-// negative in one that is inside-out.
+// Whether the winding number of a closed mesh is non-zero (van Oosterom and Strackee 1983). The
+// solid angles of its faces sum to 4 pi times that number, which is 2 where a shell lies in
+// another, and negative in an inside-out shell.
 template <class T>
 bool inside_closed(const Mesh<T>& m, const Vec3<T>& p) {
   const Vec3<T> d = p - m.centre;
@@ -45,7 +44,7 @@ bool inside(const Mesh<T>& m, const Vec3<T>& p) {
   return m.convex ? inside_convex(m, p) : inside_closed(m, p);
 }
 
-// Does either solid hold a point of any part of the other? For solids whose surfaces do not meet
+// Whether either solid contains a point of any part of the other. For solids with disjoint surfaces
 // this decides whether they overlap: each part of a surface is then wholly inside the other or
 // outside.
 template <class T>

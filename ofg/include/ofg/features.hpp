@@ -1,5 +1,5 @@
-// What meets while two meshes move, on chords: vertices and faces, edges and edges; and when on the
-// true paths.
+// Contacts of two moving meshes on chords: vertices against faces, edges against edges; and their
+// times on the true paths.
 #pragma once
 #include "overlap.hpp"
 
@@ -13,15 +13,15 @@ struct Window {
   double at(double share) const { return t0 + (t1 - t0) * share; }
 };
 
-// Bound on all coordinates that are tested in a window, in B's frame, and on the lengths that its
-// poses were rounded by.
+// Bound on all coordinates tested in a window, in B's frame, and on the lengths that determine the
+// rounding of its poses.
 template <class T>
 T scale_of(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& w) {
   const T ends = std::fmax(scale_of(a, b, Vec3<T>(w.start.p)), scale_of(a, b, Vec3<T>(w.end.p)));
   return std::fmax(ends, T(track.arms()));
 }
 
-// What met what, for the time of impact: a vertex and a face, or two edges.
+// The features in contact, for the time of impact: a vertex and a face, or two edges.
 struct Contact {
   Found found = Found::nothing;
   double share = 2;  // of the window
@@ -30,9 +30,9 @@ struct Contact {
 };
 
 // Virtual edges: the chords of the selected vertices of `m`, from `start` to `end`, against the
-// other's selected faces, all in the frame of the other. Stops at the first hit, or finds the
-// earliest. The other's faces have been gathered in the unit of length of `scale`, and the vertices
-// come out of the transforms in it.
+// other's selected faces, all in the other's frame. Stops at the first hit, or finds the earliest.
+// The other's faces are already gathered in the unit of length of `scale`, and the transforms yield
+// the vertices in the same unit.
 template <class T>
 bool virtual_edges_meet(const Mesh<T>& m, const Selection<T>& s, const Transform<T>& start,
                         const Transform<T>& end, const Selection<T>& other, T scale, bool swapped,
@@ -62,7 +62,7 @@ bool virtual_edges_meet(const Mesh<T>& m, const Selection<T>& s, const Transform
   return hit;
 }
 
-// Boxes of B's selected edges in a unit of length, for the rejection of most pairs of edges.
+// Boxes of B's selected edges in a unit of length, to reject most pairs of edges.
 template <class T>
 BoxView<T> edge_boxes(const Mesh<T>& m, const Selection<T>& s, T unit, Workspace<T>& w) {
   const std::size_t n = s.edges.size(), padded = (n + lanes<T> - 1) / lanes<T> * lanes<T>;
@@ -114,8 +114,8 @@ bool moving_edges_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& s
   return hit;
 }
 
-// Signed measure that vanishes when the features of the contact meet: a vertex in the plane of a
-// face, two edges in one plane.
+// Signed measure that is zero when the features in contact meet: a vertex in the plane of a face,
+// two edges in one plane.
 template <class T>
 double measure(const Mesh<T>& a, const Mesh<T>& b, const Contact& c,
                const Transform<double>& a_to_b) {
@@ -136,10 +136,9 @@ double measure(const Mesh<T>& a, const Mesh<T>& b, const Contact& c,
   return dot(n, (swapped ? a_to_b.inverse()(v) : a_to_b(v)) - o);
 }
 
-// The velocity estimate, put on the real motion: the time in the window at which the features that
-// met on the chords meet on their true paths. Regula falsi in the Illinois form, which keeps a
-// bracket; the chord's own time where there is none (two edges that pass one another and come
-// back).
+// The velocity estimate on the real motion: the time in the window at which the features that met
+// on the chords meet on their true paths. Regula falsi in the Illinois form, which keeps a bracket;
+// the chord's own time if there is none (two edges that pass one another and return).
 template <class T>
 double velocity_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& w,
                      const Contact& c) {
@@ -170,7 +169,7 @@ double velocity_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track, con
   return t;
 }
 
-// Step 4 (and its repairs) over a window, on the selections made. Leaves B's selection gathered,
+// Step 4 (and its repairs) over a window, on existing selections. Leaves B's selection gathered,
 // and A's not.
 template <class T>
 bool features_meet(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& start,

@@ -1,5 +1,4 @@
-// What is known of a body before any question is asked: vertices and face centres in
-// structure-of-arrays.
+// Data of a body computed before any query: vertices and face centres in structure-of-arrays.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -21,8 +20,8 @@ struct Points {
   int size() const { return int(x.size()); }
 };
 
-// The centres of the faces in blocks of block_faces neighbours, so that most blocks can be passed
-// over by their boxes.
+// The centres of the faces in blocks of block_faces neighbours, so that most blocks can be rejected
+// by their boxes.
 template <class T>
 struct Blocks {
   std::vector<T> x, y, z, lo[3], hi[3];
@@ -93,8 +92,7 @@ struct Blocks {
   }
 };
 
-// The first vertex of each part of a surface whose faces hang together by vertices, in the order of
-// the faces.
+// The first vertex of each part of a surface connected through vertices, in the order of the faces.
 inline std::vector<int> first_of_parts(const std::vector<std::array<int, 3>>& faces,
                                        std::size_t n) {
   std::vector<int> root(n), first;
@@ -117,7 +115,7 @@ inline std::vector<int> first_of_parts(const std::vector<std::array<int, 3>>& fa
   return first;
 }
 
-// One triangle mesh. `convex` promises that it bounds a convex solid with outward faces.
+// One triangle mesh. `convex` asserts that it bounds a convex solid with outward faces.
 template <class T>
 struct Mesh {
   Points<T> vertices;
@@ -127,7 +125,7 @@ struct Mesh {
   Points<T> centres;                           // of the faces: the mean of three vertices
   Blocks<T> blocks;                            // the same centres, for the selection
   std::vector<T> corners;                      // of each face: nine coordinates in a row
-  Cloud<T> cloud;                              // the vertices, for supports
+  Cloud<T> cloud;                              // the vertices, for support functions
   SupportMap supports;                         // the same, by table
   std::vector<T> face_radius;       // from a face's centre to its farthest vertex, rounded up
   std::vector<Vec3<T>> own_points;  // one point of the solid in each of its parts
@@ -139,7 +137,7 @@ struct Mesh {
   Mesh() = default;
 
   // vertices: n x 3, faces: m x 3 indices into them, both row by row.
-  // A vertex that no face uses is no part of the body: the first one in use stands in its place.
+  // A vertex that no face uses is not part of the body: the first used vertex replaces it.
   Mesh(const double* v, std::size_t n, const std::int32_t* f, std::size_t m, bool convex_)
       : convex(convex_) {
     std::vector<char> used(n, char(m == 0));
@@ -204,7 +202,7 @@ template <class T>
 struct Body {
   std::vector<Mesh<T>> pieces;
   Mesh<T> whole;
-  Vec3<T> centre;  // mean of the centres of the pieces; of an undivided mesh, of its vertices
+  Vec3<T> centre;  // mean of the centres of the pieces; for an undivided mesh, of its vertices
   T radius = 0;    // from `centre`, rounded up
 
   void close() {

@@ -1,6 +1,5 @@
-// Poses, motions over one step, and the motion of one body as seen from the other. Always in
-// double, whatever the meshes hold: the relative pose is where positions far from the world's
-// origin cancel.
+// Poses, motions over one step, and the motion of one body relative to the other. Always in double,
+// whatever the meshes' type: positions far from the world's origin cancel in the relative pose.
 #pragma once
 #include "vector.hpp"
 
@@ -12,7 +11,7 @@ struct Pose {
   Vec3<double> p;
 };
 
-// x(t) = p + R(q) c + t d + Rot(axis/|axis|, angle t) R(q) (v - c) for t in [0, 1]: a body turns
+// x(t) = p + R(q) c + t d + Rot(axis/|axis|, angle t) R(q) (v - c) for t in [0, 1]: a body rotates
 // about its point c = `about`, which is given in its own frame.
 struct Motion {
   Vec3<double> displacement;
@@ -30,7 +29,7 @@ struct Transform {
     const Mat3<T> t = r.transposed();
     return {t, -(t * p)};
   }
-  // What is moved comes out in another unit of length.
+  // The transformed points are in another unit of length.
   Transform in_units(T unit) const {
     Transform u{r, p * unit};
     for (auto& row : u.r.row) row = row * unit;
@@ -45,8 +44,8 @@ struct Transform {
   }
 };
 
-// N(q)/|q|^2 without a square root: 180 and 90 degree turns about the axes are exact. In another
-// unit where squares leave the range of numbers.
+// N(q)/|q|^2 without a square root: rotations by 180 and 90 degrees about the axes are exact. In
+// another unit if squares would overflow or underflow.
 inline Mat3<double> rotation(const double (&q)[4]) {
   double w = q[0], x = q[1], y = q[2], z = q[3], n = w * w + x * x + y * y + z * z;
   if (!(n > 1e-100 && n < 1e100)) {
@@ -70,35 +69,35 @@ inline Mat3<double> turn(const Vec3<double>& axis, double angle) {
   return rotation(q);
 }
 
-// One moving body: its start pose resolved to a matrix, and its motion.
+// One moving body: its start pose as a matrix, and its motion.
 struct Mover {
   Mat3<double> r;
   Vec3<double> p;
   Motion motion;
-  Vec3<double> arm;  // from the frame's origin to the point turned about, at the start, in the
-                     // world; zero where nothing turns
+  Vec3<double> arm;  // from the frame's origin to the centre of rotation, at the start, in the
+                     // world; zero without rotation
 
   Mover(const Pose& pose, const Motion& m) : r(rotation(pose.q)), p(pose.p), motion(m) {
     if (turns()) {
       arm = r * m.about;
       motion.axis = m.axis * unit_of(largest(m.axis));  // its square stays in range
     } else {
-      motion.about = {};  // where nothing turns any point will do
+      motion.about = {};  // without rotation any point will do
     }
   }
   bool turns() const { return motion.angle != 0; }
   Mat3<double> turned(double t) const { return turn(motion.axis, motion.angle * t); }
-  // How far a point of the body is from the point that it turns about.
+  // The distance of a point of the body from its centre of rotation.
   double lever(const Vec3<double>& v) const { return length(v - motion.about); }
-  // How far a point of the body with this lever can stray from its chord over a share h of the
-  // step: |x''| <= angle^2 lever, and no more than the diameter of its circle.
+  // The largest deviation of a point of the body with this lever from its chord over a share h of
+  // the step: |x''| <= angle^2 lever, and at most the diameter of its circle.
   double stray(double lever, double h) const {
     const double turned = std::abs(motion.angle) * h;
     return lever * std::fmin(turned * turned / 8, 2.0);
   }
 };
 
-// The motion of A as seen from B.
+// The motion of A relative to B.
 struct Track {
   Mover a, b;
 
@@ -108,8 +107,8 @@ struct Track {
 
   bool turns() const { return a.turns() || b.turns(); }
 
-  // From the origin of B's frame at the start to A's, at time t if nothing turned: here positions
-  // far from the world's cancel.
+  // From the origin of B's frame at the start to A's, at time t without rotation: here positions
+  // far from the world's origin cancel.
   Vec3<double> shift(double t) const {
     return (a.p - b.p) + (a.motion.displacement - b.motion.displacement) * t;
   }
@@ -143,19 +142,19 @@ struct Track {
     return shift(t) + moved(a, in_a) - moved(b, in_b);
   }
 
-  // From the point that B turns about to the one that A turns about, at time t: linear in t.
+  // From B's centre of rotation to A's, at time t: linear in t.
   Vec3<double> pivots(double t) const { return shift(t) + (a.arm - b.arm); }
 
-  // Lengths that a turn adds and takes away again: the rounding of poses is of their size.
+  // Lengths that a rotation adds and subtracts again: the rounding of poses is of their size.
   double arms() const { return length(a.arm) + length(b.arm); }
 
-  // Bound on the relative velocity of the points turned about.
+  // Bound on the relative velocity of the centres of rotation.
   double slide() const { return length(a.motion.displacement - b.motion.displacement); }
 
-  // Bound on the speed (length per step) of a point of A with lever_a seen from B, where lever_b is
-  // 0, or of a point of B with lever_b seen from A, where lever_a is 0; `apart` bounds the distance
-  // between the points turned about. Seen from B, with r = x_A - P_B from B's point turned about:
-  // |r' - w_B x r| <= slide + |w_A| lever_a + |w_B| (lever_a + apart).
+  // Bound on the speed (length per step) of a point of A with lever_a relative to B, where lever_b
+  // is 0, or of a point of B with lever_b relative to A, where lever_a is 0; `apart` bounds the
+  // distance between the centres of rotation. Relative to B, with r = x_A - P_B from B's centre of
+  // rotation: |r' - w_B x r| <= slide + |w_A| lever_a + |w_B| (lever_a + apart).
   double speed(double lever_a, double lever_b, double apart) const {
     return slide() +
            (std::abs(a.motion.angle) + std::abs(b.motion.angle)) * (lever_a + lever_b + apart);

@@ -14,7 +14,7 @@ struct Pair {
   int piece_a, piece_b;
 };
 
-// The piece whose centre is nearest to a point of its frame; the first of equals.
+// The piece whose centre is nearest to a point of its frame; the first of equally near ones.
 template <class T>
 int nearest_piece(const Body<T>& body, const Vec3<T>& p, Counts& counts) {
   int best = 0;
@@ -28,7 +28,7 @@ int nearest_piece(const Body<T>& body, const Vec3<T>& p, Counts& counts) {
 }
 
 // OFG at the object level: the piece of A nearest to the centre of B, then the piece of B nearest
-// to that piece; where they are at time t.
+// to that piece, at time t.
 template <class T>
 Pair<T> opposing_pieces(const Body<T>& a, const Body<T>& b, const Track& track, Counts& counts,
                         double t = 0) {
@@ -43,13 +43,14 @@ Pair<T> opposing_pieces(const Body<T>& a, const Body<T>& b, const Track& track, 
   return {i < 0 ? a.whole : a.pieces[i], j < 0 ? b.whole : b.pieces[j], i, j};
 }
 
-// Is the second answer to be preferred? A hit to none, an earlier time to a later one or to none.
+// Whether the second answer is preferred: a hit to none, an earlier time to a later one or to none.
 inline bool better(const Answer& now, const Answer& one) {
   return one.hit &&
          (!now.hit || one.time < now.time || (now.time != now.time && one.time == one.time));
 }
 
-// Every pair of pieces. An overlap stops at the first hit; a sweep goes on, for the earliest time.
+// Every pair of pieces. An overlap stops at the first hit; a sweep continues, for the earliest
+// time.
 template <class T, class Ask>
 Answer all_pieces(const Body<T>& a, const Body<T>& b, bool first_settles, Ask ask) {
   Answer best;
@@ -69,8 +70,8 @@ Answer all_pieces(const Body<T>& a, const Body<T>& b, bool first_settles, Ask as
   return best;
 }
 
-// A repair: the pieces are chosen where they are at the start, at the end and where the centres
-// pass closest; every pair that was chosen is asked, and the earliest time counts.
+// A repair: the pieces are selected at the start, at the end and where the centres pass closest;
+// every selected pair is tested, and the earliest time counts.
 template <class T, class Ask>
 Answer pieces_over_time(const Body<T>& a, const Body<T>& b, const Track& track, int n, Ask ask) {
   const Vec3<double> ca(a.centre), cb(b.centre), from = track.between(ca, cb, 0),
@@ -112,7 +113,7 @@ Answer ask_pieces(const Body<T>& a, const Body<T>& b, const Track& track, const 
 
 }  // namespace detail
 
-// Do the bodies meet at the start of `track`? Reserve `w` for both bodies first.
+// Whether the bodies meet at the start of `track`. First reserve `w` for both bodies.
 template <class T>
 Answer overlap(const Body<T>& a, const Body<T>& b, const Track& track, const Options& o,
                Workspace<T>& w) {
@@ -121,7 +122,7 @@ Answer overlap(const Body<T>& a, const Body<T>& b, const Track& track, const Opt
   });
 }
 
-// Do the bodies meet during the step of `track`?
+// Whether the bodies meet during the step of `track`.
 template <class T>
 Answer sweep(const Body<T>& a, const Body<T>& b, const Track& track, const Options& o,
              Workspace<T>& w) {

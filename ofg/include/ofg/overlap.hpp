@@ -1,4 +1,4 @@
-// Discrete OFG: do two meshes meet at one pair of poses? Steps numbered as in the article.
+// Discrete OFG: whether two meshes meet at one pair of poses. Steps are numbered as in the article.
 #pragma once
 #include "containment.hpp"
 #include "screen.hpp"
@@ -7,7 +7,7 @@
 namespace ofg {
 namespace detail {
 
-// Bound on the coordinates, in B's frame, of all that is tested.
+// Bound on the coordinates, in B's frame, of everything that is tested.
 template <class T>
 T scale_of(const Mesh<T>& a, const Mesh<T>& b, const Vec3<T>& p) {
   return std::fmax(a.extent + length(p), b.extent);
@@ -17,8 +17,8 @@ inline bool spheres_apart(const Vec3<double>& between, double sum) {
   return dot(between, between) > sum * sum;
 }
 
-// triangles_meet, after the planes of the two have been tried. `axis`: one that keeps them apart,
-// from t0 to s0, if they are.
+// triangles_meet, after the planes of the two have been tried. `axis`: a separating axis from t0 to
+// s0, if there is one.
 template <class T>
 bool edges_meet(const Triangle<T>& s0, const Triangle<T>& t0, T slack, Vec3<T>& axis) {
   const Vec3<T> o = t0.a;
@@ -30,10 +30,10 @@ bool edges_meet(const Triangle<T>& s0, const Triangle<T>& t0, T slack, Vec3<T>& 
   return !((sliver(s) || sliver(t)) && slivers_apart(s, t, slack));
 }
 
-// Is the plane of one of the selected faces a wall between the selections? `axis`: the normal of
-// the best, from B to A. A plane that one side is in front of is a proposal; that the other side is
-// behind it is tried on its points, because the normal of a sliver is mostly rounding, and a mesh
-// need not be convex.
+// Whether the plane of one of the selected faces separates the selections. `axis`: the normal of
+// the best plane, from B to A. A plane with one side in front of it is a candidate; the points of
+// the other side are tested against it, because the normal of a sliver is mostly rounding, and a
+// mesh need not be convex.
 template <class T, class Along>
 bool walled_off(const Selection<T>& a, const Selection<T>& b, T gap, Vec3<T>& axis, Along along) {
   T n[3], m[3];
@@ -47,9 +47,9 @@ bool walled_off(const Selection<T>& a, const Selection<T>& b, T gap, Vec3<T>& ax
   return false;
 }
 
-// Step 8: face against face, the nearest first, until two meet. What settles many pairs at once is
-// tried where it is likely to: the planes of the faces before the first row, the axis that kept a
-// pair apart after it, and a search for any plane after the row.
+// Step 8: face against face, the nearest first, until two meet. Tests that settle many pairs at
+// once are tried where they are likely to succeed: the planes of the faces before the first row,
+// the axis that separated a pair after it, and a search for any plane after the row.
 template <class T>
 bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Vec3<T> axis,
                 Screened screened, Workspace<T>& w, Answer& answer) {
@@ -83,9 +83,8 @@ bool faces_meet(const Selection<T>& a, const Selection<T>& b, T scale, Vec3<T> a
   return false;
 }
 
-// Asked when the k faces nearest do not meet, since bodies that cross have faces to name, and
-// before k grows: all faces cost up to a hundred times as much where the bodies are deep in one
-// another.
+// Used if the k nearest faces do not meet, since intersecting bodies have faces to report, and
+// before k grows: all faces cost up to a hundred times as much if the bodies penetrate deeply.
 template <class T>
 bool holds(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& a_to_b, const Options& o,
            Answer& answer) {
@@ -94,7 +93,7 @@ bool holds(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& a_to_b, const
   return true;
 }
 
-// What a discrete query knows after step 1.
+// State of a discrete query after step 1.
 template <class T>
 struct Near {
   Transform<T> to_b, to_a;
@@ -140,7 +139,7 @@ bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Transform<T>& to_b, T
   return separated(axis, gap * unit, least, 24);
 }
 
-// Steps 2 to 8 with k as it is, whatever repairs there are.
+// Steps 2 to 8 with the given k, whatever the repairs.
 template <int Last, class T>
 void oppose_once(const Mesh<T>& a, const Mesh<T>& b, const Near<T>& near, const Options& o,
                  Workspace<T>& w, Answer& answer) {
@@ -152,10 +151,10 @@ void oppose_once(const Mesh<T>& a, const Mesh<T>& b, const Near<T>& near, const 
 }  // namespace detail
 
 // Convex or not, `a` and `b` are tested as surfaces (with `containment` as solids). Does not
-// allocate once `w` has room for both. Adaptive k starts from k, and grows only where neither faces
-// that meet, nor a plane between the bodies, nor containment settles the matter. Last: the step
-// after which to stop, so that the cost of each can be measured; nothing else has a use for less
-// than 8. screened: what a screen of this pair has said already.
+// allocate once `w` has room for both. Adaptive k starts from k, and grows only if neither
+// intersecting faces, nor a plane between the bodies, nor containment settles the query. Last: the
+// step after which to stop, so that the cost of each can be measured; there is no other use for
+// less than 8. screened: the result of an earlier screen of this pair.
 template <int Last = 8, class T>
 Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Options& o,
                Workspace<T>& w, Screened screened = Screened::unknown) {

@@ -1,6 +1,6 @@
-// Are two bodies so surely apart that no test of their faces can hit? In single precision with room
-// for its rounding: "apart" is a plane between the convex hulls of all their vertices. No step of
-// the article.
+// Whether two bodies are so surely apart that no test of their faces can hit. In single precision
+// with a margin for its rounding: "apart" means a plane between the convex hulls of all their
+// vertices. Not a step of the article.
 #pragma once
 #include "mesh.hpp"
 #include "motion.hpp"
@@ -15,21 +15,21 @@ enum class Screened : unsigned char {
 
 namespace detail {
 
-// In units of the sum of the radii. A point of a body, posed, is off by 10 units of 2^-24 or so, a
+// In units of the sum of the radii. A posed point of a body is off by 10 units of 2^-24 or so, a
 // support function's choice by 30 in its last bits and by 10 in its axis, each for its body's share
 // of the unit: together under 64, taken twice.
 constexpr double screen_rounding = 128.0 / (1 << 24);
 
-// How many axes are worth a try before an exact search. Of pairs at small gaps three settle 80 to
-// 100 % from 320 faces on, and 20 % of cubes, whose lists are all their vertices.
+// How many axes to try before an exact search. Of pairs at small gaps three settle 80 to 100 % from
+// 320 faces on, and 20 % of cubes, whose lists are all their vertices.
 template <class T>
 int first_axes(const Mesh<T>& a, const Mesh<T>& b) {
   return a.vertices.size() > list_unit && b.vertices.size() > list_unit ? 3 : 0;
 }
 
-// One pair, by a few axes and then GJK: a portal for one pair would wait for itself most of the
-// time. slide: of A in B's frame, without turning; slack: a length that must lie between the bodies
-// besides.
+// One pair, by a few axes and then GJK: a portal for one pair would leave most lanes unused. slide:
+// of A in B's frame, without rotation; slack: an additional length that must lie between the
+// bodies.
 template <class T>
 bool screened_apart(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& to_b,
                     const Vec3<double>& slide, double slack) {

@@ -10,7 +10,7 @@
 
 namespace ofg {
 
-// Entries in memory that was reserved: emptying and filling writes nothing else.
+// Entries in reserved memory: emptying and filling it writes nothing else.
 template <class T>
 class List {
  public:
@@ -34,11 +34,11 @@ class List {
 
 template <class T>
 struct Selection {
-  List<Candidate<T>> near;  // nearest first; equal distances in the order of the faces
-  std::vector<T> x, y, z;   // corners of the same faces where they were placed: all a, then all b,
-                            // then all c, each padded
+  List<Candidate<T>> near;           // nearest first; equal distances in the order of the faces
+  std::vector<T> x, y, z;            // corners of the same faces as placed: all a, then all b,
+                                     // then all c, each padded
   List<int> vertices, edges;         // of the selected faces, each once, nearest first
-  List<int> vertex_face, edge_face;  // a selected face each belongs to
+  List<int> vertex_face, edge_face;  // a selected face to which each belongs
   Vec3<T> centre;                    // mean of the faces' centres, in the body's own frame
   T radius = 0;  // from `centre` to the farthest vertex of the faces, rounded up
 
@@ -59,7 +59,7 @@ struct Selection {
   }
 };
 
-// All memory a query needs. Reserve once for the largest meshes; then no query allocates. One per
+// All memory of a query. Reserve once for the largest meshes; then no query allocates. One per
 // thread.
 template <class T>
 struct Workspace {
@@ -116,7 +116,7 @@ void k_nearest(List<Candidate<T>>& c, int k) {
   std::sort(c.begin(), c.end());
 }
 
-// By centres, in blocks: what most queries do.
+// By centres, in blocks: used by most queries.
 template <class T>
 void nearest_centres(const Mesh<T>& m, const Vec3<T>& point, int k, Workspace<T>& w,
                      List<Candidate<T>>& found, Counts& counts) {
@@ -130,7 +130,7 @@ void nearest_centres(const Mesh<T>& m, const Vec3<T>& point, int k, Workspace<T>
 }
 
 // By distance to the faces themselves. A face is no nearer than its centre less its radius, and the
-// k with the nearest centres bound the k-th distance, so most faces are passed over; those within
+// k with the nearest centres bound the k-th distance, so most faces are rejected; those within
 // `reach` never are.
 template <class T>
 void nearest_triangles(const Mesh<T>& m, const Vec3<T>& p, int k, T reach, Workspace<T>& w,

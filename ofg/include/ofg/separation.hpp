@@ -1,5 +1,5 @@
-// Is there a plane with one set of points on one side and another on the other? A plane found is a
-// proof; none found says nothing.
+// Searches for a separating plane between two sets of points. A plane found is a proof; none found
+// proves nothing.
 #pragma once
 #include "simd/kernels.hpp"
 
@@ -32,7 +32,7 @@ namespace detail {
 
 // The point nearest to the origin of a simplex of up to four points, and the points that span it,
 // kept in place. Ericson, Real-Time Collision Detection, 2005, sections 5.1.2, 5.1.5, 5.1.6.
-// Returns the origin for a tetrahedron that holds it.
+// Returns the origin for a tetrahedron that contains it.
 template <class T>
 struct Simplex {
   Vec3<T> p[4];
@@ -92,9 +92,9 @@ struct Simplex {
 
 }  // namespace detail
 
-// Searches for a plane that keeps two sets apart by more than `gap`, along `axis` first and last
-// found, from the second set to the first (Gilbert, Johnson, Keerthi 1988). `least_of(axis)`
-// returns the point of (first - second) least along an axis.
+// Searches for a plane that keeps two sets apart by more than `gap`; `axis` is the first axis tried
+// and the last found, from the second set to the first (Gilbert, Johnson, Keerthi 1988).
+// `least_of(axis)` returns the point of (first - second) least along an axis.
 template <class T, class Least>
 bool separated(Vec3<T>& axis, T gap, Least least_of, int iterations = 12) {
   detail::Simplex<T> s;
@@ -104,7 +104,7 @@ bool separated(Vec3<T>& axis, T gap, Least least_of, int iterations = 12) {
     const Vec3<T> v = axis * (T(1) / size), w = least_of(v);
     const T apart = dot(v, w);
     if (apart > gap) return true;
-    // Nearer than this the search has converged: what is left is at most the gap.
+    // Nearer than this the search has converged: the rest is at most the gap.
     if (i > 1 && apart > 0 && size - apart <= T(1e-3) * size && size <= gap) return false;
     s.p[s.n++] = w;
     axis = s.nearest();

@@ -1,6 +1,6 @@
 // The support function of a set of points by table: for every cell of a cube map of directions, the
-// points that are extreme along some direction of the cell. All of them, so that the best of a
-// cell's list is the best of all.
+// points that are extreme along some direction of the cell. The list is complete, so the best point
+// of a cell's list is the best of all.
 #pragma once
 #include <cmath>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace ofg {
 
-// Points are kept relative to `centre` in units of `radius`, in single precision: what is built on
-// them allows for its rounding.
+// Points are stored relative to `centre` in units of `radius`, in single precision: users must
+// allow for its rounding.
 class SupportMap {
  public:
   SupportMap() = default;
 
-  // x, y, z: n coordinates each; radius: no less than the distance of any point from the centre (0
-  // is taken as 1).
+  // x, y, z: n coordinates each; radius: at least the distance of any point from the centre (0 is
+  // taken as 1).
   template <class T>
   SupportMap(const T* x, const T* y, const T* z, int n, const Vec3<T>& centre, T radius) {
     const double unit = radius > 0 ? 1 / double(radius) : 1;
@@ -25,7 +25,7 @@ class SupportMap {
       all.push_back((Vec3<double>(Vec3<T>(x[i], y[i], z[i])) - Vec3<double>(centre)) * unit);
     std::vector<int> everyone;
     for (int i = 0; i < n; ++i) everyone.push_back(i);
-    // A dozen points a cell where they are spread evenly: a list is read sixteen at a time.
+    // A dozen points per cell if they are spread evenly: a list is read sixteen at a time.
     side = 1;
     if (n > list_unit)
       while (side < 32 && side < 0.5 * std::sqrt(double(n))) side *= 2;
@@ -52,8 +52,8 @@ class SupportMap {
     return d * (1 / length(d));
   }
 
-  // The points of a list that are extreme somewhere in cell i, j of `cells` x `cells`; then those
-  // of its quarters among them.
+  // The points of a list that are extreme somewhere in cell i, j of `cells` x `cells`; then
+  // recursively for its quarters.
   void divide(const std::vector<Vec3<double>>& all, const std::vector<int>& list, int face, int i,
               int j, int cells, std::vector<std::vector<int>>& lists) const {
     std::vector<int> here = extreme(all, list, face, i, j, cells);

@@ -1,6 +1,6 @@
-// OFG over one step: do two moving meshes meet, and when? Translational and rotational sweep are
-// one algorithm, on the motion of A as seen from B; its virtual edges are exact for translations
-// and chords of the true paths for turns.
+// OFG over one step: whether two moving meshes meet, and when. Translational and rotational sweep
+// are one algorithm, on the motion of A relative to B; its virtual edges are exact for translations
+// and chords of the true paths for rotations.
 #pragma once
 #include "features.hpp"
 #include "stray.hpp"
@@ -8,8 +8,8 @@
 namespace ofg {
 namespace detail {
 
-// Step 1 over a window: spheres swept along the chord between the centres, grown by what the true
-// path strays from it.
+// Step 1 over a window: spheres swept along the chord between the centres, enlarged by the
+// deviation of the true path from it.
 template <class T>
 bool swept_spheres_apart(const Mesh<T>& a, const Mesh<T>& b, const Track& track, double t0,
                          double t1, double slack) {
@@ -33,7 +33,7 @@ bool surfaces_meet(const Mesh<T>& a, const Transform<double>& pose, Workspace<T>
                     Screened::unknown, w, answer);
 }
 
-// One plane between B's selection and A's at both ends keeps all chords away: none of the tests of
+// One plane between B's selection and A's at both ends excludes all chords: none of the tests of
 // the window can hit.
 template <class T>
 bool chords_apart(const Mesh<T>& a, const Window<T>& window, T gap, T unit, Workspace<T>& w) {
@@ -72,8 +72,8 @@ double bisection_time(const Mesh<T>& a, const Mesh<T>& b, const Track& track,
   return hi;
 }
 
-// The article's second way: move half of the window and test the faces there; if none met, move
-// half of what is left, and so on. NaN where none of the moves meets.
+// The article's second way: move half of the window and test the faces there; if none meet, move
+// half of the remainder, and so on. NaN if none of the moves meets.
 template <class T>
 double halving_time(const Mesh<T>& a, const Track& track, const Window<T>& window, const Options& o,
                     T scale, Workspace<T>& w, Counts& counts) {
@@ -89,7 +89,7 @@ double halving_time(const Mesh<T>& a, const Track& track, const Window<T>& windo
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// The time of a hit between the ends, in the way that was asked for.
+// The time of a hit between the ends, by the chosen method.
 template <class T>
 double time_of_impact(const Mesh<T>& a, const Mesh<T>& b, const Track& track,
                       const Window<T>& window, const Contact& contact, const Options& o, T scale,
@@ -138,8 +138,8 @@ void select_for(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Wi
   select(b, point, n, o, reach_b, w, w.b, counts);
 }
 
-// One plane between the hulls of the whole meshes, with room for the stray: the bodies are apart
-// throughout the window, on their true paths.
+// One plane between the hulls of the whole meshes, with a margin for the deviation: the bodies are
+// apart throughout the window, on their true paths.
 template <class T>
 bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Window<T>& window, T gap,
                  Vec3<T>& axis) {
@@ -157,8 +157,8 @@ bool hulls_apart(const Mesh<T>& a, const Mesh<T>& b, const Window<T>& window, T 
   return separated(axis, gap * unit, least, 16);
 }
 
-// The virtual edges and the end of one window, on selections of its own; the start too where
-// nothing was tested before it.
+// The virtual edges and the end of one window, with its own selections; also the start if nothing
+// was tested before it.
 template <class T>
 bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Window<T>& window,
                   bool first, const Options& o, Workspace<T>& w, Answer& answer) {
@@ -171,7 +171,7 @@ bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const 
   if (o.both_vertices) list_vertices(b, w, w.b);
   if (o.edge_edge) list_edges(a, w, w.a), list_edges(b, w, w.b);
   // Where a chord of B's vertex meets a face of A, the two are no farther apart at that time than
-  // both stray.
+  // the sum of both deviations.
   const double h = window.t1 - window.t0;
   const T room = 4 * rounding<T> * scale +
                  (o.both_vertices ? T(stray(a, track, h) + stray_of_b(a, b, track, h)) : T(0));
@@ -205,8 +205,8 @@ bool sweep_window(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const 
   return at_start() || at_end() || in_between();
 }
 
-// Does a body hold a point of the other at one pose? Then the faces are named that meet there, if
-// any of the k nearest do: `crossing`.
+// Whether a body contains a point of the other at one pose. If so, the faces that meet there are
+// reported, if any of the k nearest do: `crossing`.
 template <class T>
 bool overlaps_at(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& pose, Found crossing,
                  double slack, const Options& o, Workspace<T>& w, Answer& answer) {
@@ -220,7 +220,7 @@ bool overlaps_at(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>& po
   return true;
 }
 
-// What a sweep keeps while it goes through its windows.
+// State of a sweep across its windows.
 template <class T>
 struct Sweep {
   const Mesh<T>&a, &b;
@@ -228,7 +228,7 @@ struct Sweep {
   const Options& o;
   Workspace<T>& w;
   Answer& answer;
-  double tolerance;  // length that a chord may stray; infinite where arcs are not cut
+  double tolerance;  // maximum deviation of a chord; infinite if arcs are not divided
   Vec3<T> axis;
 
   double slack(const Window<T>& x) const {
@@ -236,8 +236,8 @@ struct Sweep {
            (2 * (double(a.extent) + b.extent + track.arms()) + length(x.start.p) + length(x.end.p));
   }
 
-  // Windows in the order of time, halved until their chords are true enough, or the bodies surely
-  // apart. No deeper than 24: a hundred turns at a tolerance of 1e-6 need 19.
+  // Windows in the order of time, halved until their chords are accurate enough, or the bodies
+  // surely apart. No deeper than 24: a hundred full rotations at a tolerance of 1e-6 need 19.
   bool meet(const Window<T>& x, bool first, int depth) {
     ++answer.counts.steps;
     if (depth > 0) {

@@ -1,9 +1,8 @@
 // Tests between triangles, segments and points.
-//
 // Touching counts as meeting. Every test takes `scale`, a bound on the absolute value of the
 // coordinates, and settles nothing by less than a few units of rounding of it: faces closer than
-// that touch. No absolute tolerance occurs anywhere, so scaling by a power of two changes no
-// answer. Degenerate triangles are the segments or points that they are.
+// that touch. There is no absolute tolerance, so scaling by a power of two changes no answer.
+// Degenerate triangles are treated as segments or points.
 #pragma once
 #include <limits>
 
@@ -52,8 +51,8 @@ inline bool sliver(const Triangle<T>& t) {
   return !(dot(n, n) > std::sqrt(std::numeric_limits<T>::epsilon()) * longest * longest);
 }
 
-// Two flat-to-a-line triangles in one plane have none of their separating axes among the seventeen:
-// these are the rest.
+// Two coplanar triangles that degenerate to segments have none of their separating axes among the
+// seventeen: these are the remaining axes.
 template <class T>
 inline bool slivers_apart(const Triangle<T>& s, const Triangle<T>& t, T slack) {
   const Vec3<T> e[3] = {s.b - s.a, s.c - s.b, s.a - s.c}, f[3] = {t.b - t.a, t.c - t.b, t.a - t.c};
@@ -73,10 +72,10 @@ inline bool slivers_apart(const Triangle<T>& s, const Triangle<T>& t, T slack) {
 
 }  // namespace detail
 
-// Do two triangles share a point? Separating axes: the two normals, the nine products of edges and,
-// for triangles in one plane, the six normals of edges within it (Gottschalk, Lin, Manocha 1996,
-// section 5, for triangles). Every axis is a proof of its own, so rounding can cost a verdict only
-// within `rounding` of touching, where the answer is "meet".
+// Whether two triangles share a point. Separating axes: the two normals, the nine products of edges
+// and, for coplanar triangles, the six normals of edges within the plane (Gottschalk, Lin, Manocha
+// 1996, section 5, for triangles). Every axis is a separate proof, so rounding can change a verdict
+// only within `rounding` of touching, where the answer is "meet".
 template <class T>
 inline bool triangles_meet(const Triangle<T>& s0, const Triangle<T>& t0, T scale) {
   const Vec3<T> o = t0.a;
@@ -96,7 +95,7 @@ inline bool triangles_meet(const Triangle<T>& s0, const Triangle<T>& t0, T scale
 }
 
 // Least parameter in [0, 1] at which the segment p + s (q - p) meets the triangle, or -1. Along an
-// edge that two faces share both use the same three products with opposite sign, so nothing slips
+// edge shared by two faces both use the same three products with opposite sign, so nothing slips
 // through between them.
 template <class T>
 inline T segment_meets(const Vec3<T>& p, const Vec3<T>& q, const Triangle<T>& t, T scale) {
@@ -106,7 +105,8 @@ inline T segment_meets(const Vec3<T>& p, const Vec3<T>& q, const Triangle<T>& t,
   if ((from > least && to > least) || (from < -least && to < -least)) return -1;
   if (std::abs(from) > least || std::abs(to) > least) {
     const T u = dot(cross(a, b), d), v = dot(cross(b, c), d), w = dot(cross(c, a), d);
-    // All three 0: from p the triangle is a point, and the segment may pass its plane anywhere.
+    // All three 0: seen from p the triangle is a point, and the segment may cross its plane
+    // anywhere.
     const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
     if (!inside || (u == 0 && v == 0 && w == 0)) return -1;
     const T s = from / (from - to);
@@ -140,7 +140,7 @@ inline T squared_distance(const Vec3<T>& p, const Triangle<T>& t) {
   };
   const auto share = [](T part, T all) {
     return all > 0 ? part / all : T(0);
-  };  // 0 on an edge of no length
+  };  // 0 on an edge of zero length
   const T d1 = dot(ab, ap), d2 = dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return to(t.a);
   const Vec3<T> bp = p - t.b;
@@ -160,10 +160,10 @@ inline T squared_distance(const Vec3<T>& p, const Triangle<T>& t) {
   return sum > 0 ? to(t.a + ab * (vb / sum) + ac * (vc / sum)) : to(t.a);
 }
 
-// The segment from p to q, whose ends move by dp and dq, against the segment at rest from a to b:
-// the least time in [0, 1] at which they cross, or -1. The four points lie in one plane at the
-// roots of a quadratic. Edges that stay in one plane all the time, or are parallel to rounding when
-// they meet, are left to the tests of vertices against faces, which see the same contact.
+// The segment from p to q, whose ends move by dp and dq, against the fixed segment from a to b: the
+// least time in [0, 1] at which they cross, or -1. The four points are coplanar at the roots of a
+// quadratic. Edges that stay coplanar throughout, or are parallel to rounding when they meet, are
+// left to the tests of vertices against faces, which detect the same contact.
 template <class T>
 inline T edges_cross(const Vec3<T>& p, const Vec3<T>& q, const Vec3<T>& dp, const Vec3<T>& dq,
                      const Vec3<T>& a, const Vec3<T>& b, T scale) {
@@ -196,8 +196,8 @@ inline T edges_cross(const Vec3<T>& p, const Vec3<T>& q, const Vec3<T>& dp, cons
     const T s = dot(cross(f, wt), n), u = dot(cross(et, wt), n);
     if (!(s >= -slack * nn && s <= nn * (1 + slack) && u >= -slack * nn && u <= nn * (1 + slack)))
       continue;
-    // The root of a polynomial of rounding errors is no contact: the two points must be one, as far
-    // as this angle can tell.
+    // A root of a polynomial of rounding errors is not a contact: the two points must coincide, to
+    // the accuracy that this angle permits.
     const Vec3<T> gap = wt + et * (s / nn) - f * (u / nn);
     const T least = slack * scale;
     if (dot(gap, gap) * nn <= least * least * ef) return t;

@@ -1,4 +1,4 @@
-// Three-component vectors and 3 x 3 matrices, and nothing more than the algorithm needs.
+// Three-component vectors and 3 x 3 matrices, limited to the needs of the algorithm.
 #pragma once
 #include <bit>
 #include <cmath>
@@ -58,9 +58,9 @@ constexpr T unit_of(T x) {
   return std::bit_cast<T>((twice_bias - exponent) << mantissa);
 }
 
-// The unit of length for tests of coordinates up to `scale`. They multiply up to eight lengths with
-// one another, which leaves the range of numbers at sizes that people use: in float from 2^15 on.
-// In double, ordinary lengths stay as they are.
+// The unit of length for tests of coordinates up to `scale`. The tests multiply up to eight lengths
+// together, which overflows at realistic sizes: in float from 2^15 on. In double, ordinary lengths
+// are unchanged.
 template <class T>
 constexpr T unit_for(T scale) {
   if (sizeof(T) == 8 && scale > T(1e-6) && scale < T(1e6)) return 1;

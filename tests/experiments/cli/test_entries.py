@@ -26,7 +26,7 @@ def chosen(**more):
             {"methods": ["ofg-article precision=half"]},
             "precision = 'half' is unknown; use one of double",
         ),
-        ({"methods": ["ofg repairs=arc"]}, "names no repair 'arc'; there are none, all"),
+        ({"methods": ["ofg repairs=arc"]}, "unknown repair 'arc'; use none, all"),
         ({"methods": ["ofg q=3"]}, "no parameter 'q'; it has k"),
         ({"methods": ["ofg k=4,inf,-1"]}, "k = -1 must be a whole number"),
         (

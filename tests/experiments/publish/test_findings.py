@@ -32,6 +32,7 @@ from experiments.publish.findings.runs import (
 )
 from experiments.run import config, piece_truth
 from experiments.studies import sizes
+from experiments.studies.native.summary import summary
 from ofg import Body, Motion, Pose, Query, ask
 
 RESULTS = Path(__file__).parents[3] / "results"
@@ -157,7 +158,7 @@ class Fake(Runs):
         )
 
     def file(self, name):
-        if self.rows is None or ("cell" in self.rows) != name.startswith("bench-ofg"):
+        if self.rows is None or ("class" in self.rows) != name.startswith("native"):
             raise Missing(f"run {name.split('/')[0]} is missing")
         return self.rows
 
@@ -373,19 +374,47 @@ def test_cells_within_the_noise_decide_nothing():
     assert said("Cheaper", Fake(noise=lambda m, level: 2000.0)) == UNMEASURED
 
 
-def native(own: float, small: float) -> pd.DataFrame:
-    return pd.DataFrame(
+ENGINES = ("fcl-convex", "bullet", "mujoco", "parry", "coal-convex")
+
+
+def native(own: float, small: float, engines=ENGINES, **named) -> pd.DataFrame:
+    """Rows of the native study: ns of `own`, 100 of the engines, times `small` at 12 faces.
+
+    named: another time for an engine.
+    """
+    ofg = [
+        (m, isa, mode, own)
+        for isa in ("SSE2", "AVX2")
+        for m in ("ofg k=8", "ofg k=8 screen=True")
+        for mode in ("cold", "warm", "batch")
+    ]
+    theirs = [
+        (e, isa, mode, named.get(e, 100.0))
+        for e in engines
+        for isa in ("generic", "x86-64-v3")
+        for mode in ("cold", "warm")
+    ]
+    times = pd.DataFrame(
         [
-            {"situation": "apart", "faces": f, "method": m, "native": ns}
+            {
+                "bodies": "hull",
+                "faces": f"{f}",
+                "question": "overlap",
+                "situation": "gap",
+                "engine": e,
+                "isa": isa,
+                "build": "",
+                "mode": mode,
+                "block": b,
+                "build_ns": 1,
+                "ns": ns * (s if e in engines else 1),
+            }
             for f, s in ((12, small), (320, 1.0))
-            for m, ns in (
-                ("ofg k=8", own),
-                ("ofg k=4", 0.1),
-                ("fcl-convex", 100 * s),
-                ("parry", 200.0),
-            )
+            for e, isa, mode, ns in (*ofg, *theirs)
+            for b in range(3)
         ]
     )
+    return summary(times, times.assign(hit=False, label="clear", time=np.nan))
 
 
 def test_faster_than_the_engines():
@@ -394,41 +423,23 @@ def test_faster_than_the_engines():
     assert said("Faster", Fake(rows=native(500, 1))) == FAILS
 
 
-ASKED_ENGINES = ("FCL libccd", "Bullet GjkPair", "MuJoCo native", "parry", "Coal convex")
-
-
-def bench(own: float, small: float, engines=ASKED_ENGINES) -> pd.DataFrame:
-    return pd.DataFrame(
-        [
-            {"cell": f"{f}-hull/gap", "method": m, "round": r, "nanoseconds": ns}
-            for f, s in ((12, small), (320, 1.0))
-            for r in range(3)
-            for m, ns in (
-                ("OFG double k=8 screened in batch", own),
-                ("OFG double k=8", 50.0),
-                *((e, 100 * s) for e in engines),
-            )
-        ]
-    )
-
-
 def test_screened_in_batch():
-    assert said("At small gaps", Fake(rows=bench(15, 1))) == HOLDS
-    assert said("At small gaps", Fake(rows=bench(15, 0.2))) == PART
-    assert said("At small gaps", Fake(rows=bench(60, 1))) == FAILS
+    assert said("At small gaps", Fake(rows=native(15, 1))) == HOLDS
+    assert said("At small gaps", Fake(rows=native(15, 0.2))) == PART
+    assert said("At small gaps", Fake(rows=native(60, 1))) == FAILS
 
 
-@pytest.mark.parametrize("engines", [ASKED_ENGINES[:3], ASKED_ENGINES[:4]])
+@pytest.mark.parametrize("engines", [ENGINES[:3], ENGINES[:4]])
 def test_an_engine_that_was_not_asked_leaves_a_part(engines):
-    assert said("At small gaps", Fake(rows=bench(15, 1, engines))) == PART
-    assert said("At small gaps", Fake(rows=bench(60, 1, engines))) == FAILS
-    assert "Coal not asked" in of("At small gaps", Fake(rows=bench(15, 1, engines))).number
+    assert said("At small gaps", Fake(rows=native(15, 1, engines))) == PART
+    assert said("At small gaps", Fake(rows=native(60, 1, engines))) == FAILS
+    number = of("At small gaps", Fake(rows=native(15, 1, engines))).number
+    assert re.search("Coal.* not asked", number)
 
 
 def test_the_fastest_of_all_engines_is_the_measure():
-    rows = bench(15, 1)
-    rows.loc[rows.method == "parry", "nanoseconds"] = 20.0
-    assert said("At small gaps", Fake(rows=rows)) == FAILS
+    assert said("At small gaps", Fake(rows=native(15, 1, parry=20.0))) == FAILS
+    assert said("Faster", Fake(rows=native(25, 1, parry=20.0))) == FAILS
 
 
 def hulls(missed, pairs=lambda question, k: k * k, distances=2.0, evaluated=1) -> pd.DataFrame:

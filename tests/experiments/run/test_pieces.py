@@ -110,7 +110,7 @@ def test_the_pieces_own_error_is_counted_by_the_mesh_and_is_no_method(folder, fo
     assert own.hits + own.clears == len(pieces)
     assert piece_truth.NAME not in set(found.method)
     assert piece_truth.NAME not in set(made["methods"].text.method)
-    assert f"{piece_truth.NAME} is no engine" in made["accuracy-overlap"].caption
+    assert f"{piece_truth.NAME} is not an engine" in made["accuracy-overlap"].caption
 
 
 def test_an_uncertain_truth_of_the_pieces_is_in_no_rate(folder):

@@ -201,7 +201,7 @@ def test_the_log_is_bounded_and_says_what_was_cut(tmp_path):
 
 def test_a_control_that_fails_stops_the_run(tmp_path, monkeypatch):
     monkeypatch.setattr("experiments.run.processes.pool._control", _broken_control)
-    with pytest.raises(MachineError, match="SIGSEGV.*something trivial.*resume"):
+    with pytest.raises(MachineError, match="SIGSEGV.*trivial task.*resume"):
         _ask(tmp_path, {2: f"signal {signal.SIGSEGV}"})
 
 

@@ -41,7 +41,7 @@ def test_an_unfinished_run_says_how_to_finish_it(tmp_path):
 
 
 def test_no_run_folder_is_said(tmp_path):
-    with pytest.raises(StoreError, match="no run folder"):
+    with pytest.raises(StoreError, match="not a run folder"):
         _ = Store(tmp_path).config
 
 

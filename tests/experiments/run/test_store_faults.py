@@ -129,7 +129,7 @@ def test_a_changed_file_of_the_readers_own_is_refused(tmp_path):
     runner.run(config, tmp_path / "run", workers=2)
     assert (tmp_path / "run/own/method-0-mine.py").read_text() == MINE
     mine.write_text(MINE.replace("True)", "False)"))
-    words = "mine.py has changed since the run .* was begun.*own/method-0-mine.py.*--out"
+    words = "mine.py has changed since the run .* began.*own/method-0-mine.py.*--out"
     with pytest.raises(StoreError, match=words):
         runner.run(config, tmp_path / "run", workers=2)
     mine.write_text(MINE)

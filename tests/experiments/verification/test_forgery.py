@@ -177,7 +177,7 @@ def test_an_altered_answer_is_found_by_asking_again(run, tmp_path):
     store = forged(run, tmp_path / "f", put("hit", lambda hit: not hit), "observations")
     assert verify(store, workers=1).ok, "no other check sees it"
     found = verify(store, ask=-1, workers=1)
-    assert len(found.refused) == 1 and "asked again" in found.refused[0]
+    assert len(found.refused) == 1 and "but repeated" in found.refused[0]
 
 
 def test_an_untouched_run_is_accepted_and_its_answers_too(run, tmp_path):
@@ -220,4 +220,4 @@ def test_what_is_not_detectable_is_documented():
 
 
 def test_a_smaller_configuration_is_said_to_be_none_of_the_package(run):
-    assert any("none of this package's" in note for note in verify(Store(run), workers=1).notes)
+    assert any("not one of this package's" in note for note in verify(Store(run), workers=1).notes)

@@ -1,6 +1,9 @@
 //! parry in doubles behind a C interface, for the native lane.
 use parry3d_f64::math::{Pose, Rotation, Vector};
-use parry3d_f64::query::{self, NonlinearRigidMotion, ShapeCastOptions};
+use parry3d_f64::query::{
+    self, ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher, NonlinearRigidMotion,
+    PersistentQueryDispatcher, ShapeCastOptions,
+};
 use parry3d_f64::shape::{ConvexPolyhedron, Shape, TriMesh};
 
 #[repr(C)]
@@ -67,4 +70,37 @@ pub unsafe extern "C" fn parry_cast_nonlinear(
         Ok(Some(hit)) => hit.time_of_impact,
         _ => -1.0,
     }
+}
+
+/// What parry keeps of a pair from one call to the next.
+#[derive(Default)]
+pub struct Manifolds {
+    manifolds: Vec<ContactManifold<(), ()>>,
+    workspace: Option<ContactManifoldsWorkspace>,
+}
+
+#[no_mangle]
+pub extern "C" fn parry_manifolds() -> *mut Manifolds {
+    Box::into_raw(Box::default())
+}
+
+#[no_mangle]
+pub unsafe extern "C" fn parry_manifolds_free(kept: *mut Manifolds) {
+    drop(Box::from_raw(kept));
+}
+
+/// Whether a contact of the manifolds, which start from those of the last call, is no distance.
+#[no_mangle]
+pub unsafe extern "C" fn parry_manifolds_overlap(
+    kept: *mut Manifolds,
+    a: *const Box<dyn Shape>,
+    at: &CPose,
+    b: *const Box<dyn Shape>,
+    bt: &CPose,
+) -> bool {
+    let Manifolds { manifolds, workspace } = &mut *kept;
+    let apart = pose(at).inv_mul(&pose(bt));
+    let (a, b) = (&**a, &**b);
+    let asked = DefaultQueryDispatcher.contact_manifolds(&apart, a, b, 0.0, manifolds, workspace);
+    asked.is_ok() && manifolds.iter().any(|m| m.points.iter().any(|p| p.dist <= 0.0))
 }

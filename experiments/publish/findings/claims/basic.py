@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from experiments import bench_ofg
 from experiments.publish.findings.runs import (
     FAILS,
     HOLDS,
@@ -28,6 +27,8 @@ from experiments.publish.findings.runs import (
     times_more,
 )
 from experiments.studies import sizes
+from experiments.studies.native.classes import V3
+from experiments.studies.native.summary import steps
 
 from .claim import BASIC, PROBLEMS, claim
 
@@ -46,7 +47,7 @@ def depth_range(name: str) -> str:
     f"{BASIC}, steps 2 and 4",
     "at most n + m distances by the article's count in every query, and at most 2 (n + m) really"
     " computed, to faces and to blocks of faces",
-    "sizes/tables/operations.md bench-ofg/tables.md",
+    "sizes/tables/operations.md native/native.md",
     f"{HULLS} The count holds by construction: the counter adds n + m. What is computed does not:"
     " blocks of faces are passed over by one bound each.",
 )
@@ -65,13 +66,17 @@ def selection(runs: Runs):
 
 def growth(runs: Runs) -> str:
     """Native time of the steps that select, with the most faces over that with the fewest."""
-    steps = bench_ofg.steps(runs.file("bench-ofg/rows.csv"))
-    own = rows(steps, method="OFG double k=8")
-    own = own[own.cell.str.fullmatch(r"\d+-hull/gap")]
+    own = rows(
+        steps(runs.file("native/rows.parquet"), V3),
+        bodies="hull",
+        situation="gap",
+        k="8",
+        precision="double",
+    )
     if len(own) < 2:
-        raise Missing("fewer than two sizes of hulls in run bench-ofg")
+        raise Missing("fewer than two sizes of hulls in run native")
     spent = (own["2-3 select A"] + own["4-6 select B"]).to_numpy()
-    faces = own.cell.str.split("-").str[0].astype(int).to_numpy()
+    faces = own.faces.astype(int).to_numpy()
     few, many = faces.argmin(), faces.argmax()
     return (
         f"{faces[few]} faces {spent[few]:.0f} ns, {faces[many]} faces {spent[many]:.0f} ns, so"

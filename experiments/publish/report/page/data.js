@@ -267,7 +267,7 @@ function cost(m, lane, among) {
   const timed = D.lanes[lane]?.[D.labels[m]];
   if (!timed) return null;
   if (timed.bins) {
-    // the native lane: pairs of its own, already net
+    // the native lane: medians over some of the cases, already net
     const kept = timed.bins
       .filter(
         ([q, s, f]) =>

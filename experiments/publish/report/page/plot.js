@@ -203,8 +203,8 @@ async function drawPlot() {
   }
   words.textContent =
     (F.lane === "native"
-      ? "Native times are of the libraries in one C++ loop, on pairs of their own of these " +
-        "sizes (experiments/native.py); rates are of this run's cases. "
+      ? "Native times are of the libraries in one C++ loop, on some of this run's cases " +
+        "(ofg-bench native); rates are of all of them. "
       : "") +
     `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: ` +
     "answers only part of them, and is not on the Pareto front (choose the cases that all " +

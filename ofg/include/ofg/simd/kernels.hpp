@@ -44,7 +44,7 @@ struct BlockView {
   int faces, blocks;
 };
 
-// Room for `nearest`, as for its `found`: as many entries as the mesh has padded faces, and some.
+// Memory for `nearest`, as for its `found`: as many entries as the mesh has padded faces, and some.
 template <class T>
 struct NearestScratch {
   T *bound, *distance;
@@ -80,16 +80,16 @@ struct SupportView {
   int side;
 };
 
-// Pairs of posed bodies, seen from B's frame and B's centre, in units of the sum of their radii.
+// Pairs of posed bodies, in B's frame relative to B's centre, in units of the sum of their radii.
 constexpr int most_posed = 64;
 struct PosedPairs {
   float r[9][most_posed];        // the rotation of A, times its radius; by rows
   float between[3][most_posed];  // the centre of A
   float size_b[most_posed];      // radius of B
-  float gap[most_posed];         // that makes them apart; below zero: nobody asks
+  float gap[most_posed];         // that separates them; below zero: unused
 };
 
-// What PosedPairs need to know of two bodies, and the gap that counts: rounding (1 + way) + slack
+// Input of PosedPairs about two bodies, and the gap that counts: rounding (1 + way) + slack
 // (extents + way), the way in units of the sum of the radii first and then as it is.
 struct PairOfBodies {
   double centre_a[3], centre_b[3], radius_a, radius_b, rounding, slack, extents;
@@ -189,12 +189,12 @@ Kernels<T> kernels_of(Isa isa) {
   return sse2::kernels<T>();
 }
 
-// The kernels in use: those of the widest instruction set of the machine, or those that set_isa
-// chose.
+// The kernels in use: those of the widest instruction set of the machine, or those chosen by
+// set_isa.
 template <class T>
 inline Kernels<T> kernels = kernels_of<T>(widest_isa());
 
-// For tests and measurements; not while another thread asks. False where the machine lacks it.
+// For tests and measurements; not while another thread runs queries. False if the machine lacks it.
 inline bool set_isa(Isa isa) {
   if (int(isa) > int(widest_isa())) return false;
   kernels<float> = kernels_of<float>(isa);

@@ -1,8 +1,7 @@
 // Compiled once per instruction set: included by kernels.hpp inside a region with that target, with
-// OFG_ISA naming the namespace and OFG_BYTES the width of its registers. No standard library here:
-// an inline function of it compiled for AVX-512 could be the copy that the linker keeps for all.
-//
-// Every kernel does the same roundings in the same order for each element whatever the width, and
+// OFG_ISA as the namespace and OFG_BYTES as the width of its registers. No standard library here:
+// the linker could keep an inline function of it compiled for AVX-512 as the copy for all.
+// Every kernel performs the same roundings in the same order for each element at every width, and
 // reduces by minimum only, so all instruction sets give the same answers to the last bit.
 namespace ofg::OFG_ISA {
 

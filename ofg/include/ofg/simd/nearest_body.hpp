@@ -54,9 +54,9 @@ OFG_INLINE T kth(const T* d, int k) {
 }
 
 // The k <= block_faces nearest faces to a point, nearest first, equal distances in the order of the
-// faces. Blocks of faces whose box is farther than the k-th nearest in the best block are not
-// looked at. Returns the number of candidates left in `found`; if it is more than most_ranked they
-// are not sorted, and the caller must.
+// faces. Blocks of faces whose box is farther than the k-th nearest in the best block are skipped.
+// Returns the number of candidates left in `found`; if it is more than most_ranked they are not
+// sorted, and the caller must.
 template <class T>
 static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& s,
                    Candidate<T>* found, int* evaluated) {
@@ -68,8 +68,8 @@ static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& 
     distances(b.x, b.y, b.z, block_faces, p, d);
     ranks(d, b.face, b.faces, rank);
     for (int i = 0; i < b.faces; ++i)
-      found[i].distance = d[i], found[i].face = int(b.face[i]);  // stays where NaNs have no rank
-    for (int i = 0; i < b.faces; ++i)  // those beyond k are written where nobody looks
+      found[i].distance = d[i], found[i].face = int(b.face[i]);  // unchanged if NaNs have no rank
+    for (int i = 0; i < b.faces; ++i)  // those beyond k are written to unused memory
       found[rank[i]].distance = d[i], found[rank[i]].face = int(b.face[i]);
     *evaluated = b.faces;
     return b.faces < k ? b.faces : k;
@@ -124,7 +124,7 @@ static int nearest(const BlockView<T>& b, const T* p, int k, NearestScratch<T>& 
   Int rank[most_ranked + block_faces];
   ranks(s.distance, s.face, n, rank);
   for (int i = 0; i < n; ++i) found[i].distance = s.distance[i], found[i].face = int(s.face[i]);
-  for (int i = 0; i < n; ++i)  // those beyond k are written where nobody looks
+  for (int i = 0; i < n; ++i)  // those beyond k are written to unused memory
     found[rank[i]].distance = s.distance[i], found[rank[i]].face = int(s.face[i]);
   return n < k ? n : k;
 }

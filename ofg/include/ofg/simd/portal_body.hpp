@@ -1,7 +1,7 @@
 // Part of kernels_body.hpp, compiled once per instruction set under the same rules: a portal
 // towards the origin through the difference of two point sets, for as many pairs at once as a
 // register has lanes (Snethen, XenoCollide, in Game Programming Gems 7, 2008). Only the support
-// function looks at one pair at a time.
+// function handles one pair at a time.
 typedef Lane<float>::V Wide;
 typedef Lane<float>::I Mask;
 typedef Packed<float> Point;
@@ -17,7 +17,7 @@ OFG_INLINE bool any(Mask m) {
   return some;
 }
 
-// The cell of a cube map that each direction falls in. Anything that is no direction falls in some
+// The cell of a cube map that contains each direction. Values that are not directions fall in some
 // cell.
 OFG_INLINE Mask cells_of(const Point& d, int side) {
   const Wide zero = {};
@@ -34,7 +34,7 @@ OFG_INLINE Mask cells_of(const Point& d, int side) {
   return (face * side + __builtin_convertvector(u, Mask)) * side + __builtin_convertvector(v, Mask);
 }
 
-// The point of a list least along an axis, but for sixteen units of rounding: its number rides in
+// The point of a list least along an axis, up to sixteen units of rounding: its number is stored in
 // the last bits of its product.
 OFG_INLINE void least_of_cell(const SupportView& m, int cell, const float* axis, float* point) {
   constexpr int w = OFG_BYTES / 4;
@@ -80,8 +80,7 @@ static void extreme(const SupportView& m, const float* axis, float* point) {
   least_of_cell(m, cell, axis, point);
 }
 
-// The lanes that are open, as a list: a branch on each lane would be mispredicted whenever one
-// closes.
+// The open lanes, as a list: a branch on each lane would be mispredicted whenever one closes.
 struct OpenLanes {
   int lane[OFG_BYTES / 4], count;
 };
@@ -98,7 +97,7 @@ OFG_INLINE OpenLanes lanes_of(Mask open) {
   return found;
 }
 
-// The points of a set least along one axis a lane, of the open ones.
+// The points of a set least along one axis per lane, for the open lanes.
 OFG_INLINE Point least(const SupportView& m, const Point& axis, const OpenLanes& open) {
   constexpr int w = OFG_BYTES / 4;
   const Mask cells = cells_of({-axis.x, -axis.y, -axis.z}, m.side);
@@ -136,7 +135,7 @@ OFG_INLINE Point support_of(const SupportView& a, const SupportView& b, const Pa
           (q.r[6] * s.x + q.r[7] * s.y + q.r[8] * s.z) + q.between.z - q.size_b * t.z};
 }
 
-// Nothing of A - B is as near to the origin, along d, as the gap: w is farthest along d.
+// No point of A - B is as near to the origin, along d, as the gap: w is farthest along d.
 OFG_INLINE Mask beyond(const Point& w, const Point& d, Wide gap) {
   const Wide at = times<float>(w, d);
   return (at < Wide{}) & (at * at > gap * gap * times<float>(d, d));
@@ -153,7 +152,7 @@ OFG_INLINE Pairs pairs_at(const PosedPairs& pairs, int from) {
 
 // Of n pairs, n a multiple of the lanes of float: 1, their hulls are apart by more than the gap; 0,
 // no verdict. A few axes are tried: that of the centres, then each reflected at the point of A - B
-// that stands in its way (Chung and Wang 1996).
+// that refutes it (Chung and Wang 1996).
 static void reflect(const SupportView& a, const SupportView& b, const PosedPairs& pairs, int n,
                     int axes, unsigned char* verdict) {
   constexpr int w = OFG_BYTES / 4;
@@ -174,7 +173,7 @@ static void reflect(const SupportView& a, const SupportView& b, const PosedPairs
   }
 }
 
-// As reflect, until it is settled; and 2: their hulls seem to meet.
+// As reflect, until it is settled; and 2: their hulls appear to meet.
 static void portal(const SupportView& a, const SupportView& b, const PosedPairs& pairs, int n,
                    unsigned char* verdict) {
   constexpr int w = OFG_BYTES / 4, most_steps = 24;
@@ -204,11 +203,11 @@ static void portal(const SupportView& a, const SupportView& b, const PosedPairs&
       const Point s = support_of(a, b, q, d, open);
       out = open & beyond(s, d, q.gap);
       apart |= out, open &= ~out;
-      // Seeking: s joins v1 and v2, and takes the place of the one that it makes needless.
+      // Search phase: s joins v1 and v2, and replaces the one that becomes unnecessary.
       const Mask left = seeking & (times<float>(turned<float>(v1, s), v0) < zero);
       const Mask right = seeking & ~left & (times<float>(turned<float>(s, v2), v0) < zero);
       const Mask found = seeking & ~left & ~right;
-      // Found before: the portal moves out to s, unless there is nothing more to gain.
+      // Refinement phase: the portal moves out to s, unless there is nothing more to gain.
       const Mask refine = open & ~seeking;
       const Wide gain = times<float>(minus<float>(s, v1), d);
       open &= ~(refine & ~((gain > zero) & (gain * gain > q.gap * q.gap * times<float>(d, d))));
@@ -225,7 +224,7 @@ static void portal(const SupportView& a, const SupportView& b, const PosedPairs&
       const Point e = either(base, minus<float>(v1, corner), minus<float>(v2, corner)),
                   f = either(base, minus<float>(v2, corner), minus<float>(v3, corner));
       d = turned<float>(e, f);
-      open &= times<float>(d, d) > zero;  // a portal without area leads nowhere
+      open &= times<float>(d, d) > zero;  // a portal without area gives no direction
       const Mask inside = open & ~base & (times<float>(d, v1) >= zero);
       meet |= inside, open &= ~inside;
     }

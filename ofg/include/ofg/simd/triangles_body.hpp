@@ -1,5 +1,5 @@
-// Part of kernels_body.hpp, compiled once per instruction set under the same rules: triangles kept
-// apart by planes, edges and segments.
+// Part of kernels_body.hpp, compiled once per instruction set under the same rules: separation of
+// triangles by planes, edges and segments.
 // Lambdas would not inherit the target of the region: plain functions do.
 template <class T>
 struct Packed {
@@ -21,8 +21,8 @@ template <class T>
 OFG_INLINE typename Lane<T>::V sum_of_sizes(const Packed<T>& a) {
   return (a.x < T(0) ? -a.x : a.x) + (a.y < T(0) ? -a.y : a.y) + (a.z < T(0) ? -a.z : a.z);
 }
-// Along an axis, how far the triangle (s, t, u) is from the triangle (origin, p, q): negative where
-// they overlap.
+// Along an axis, the distance of the triangle (s, t, u) from the triangle (origin, p, q): negative
+// if they overlap.
 template <class T>
 OFG_INLINE typename Lane<T>::V gap_along(const Packed<T>& axis, const Packed<T>& s,
                                          const Packed<T>& t, const Packed<T>& u, const Packed<T>& p,
@@ -37,7 +37,7 @@ OFG_INLINE typename Lane<T>::V gap_along(const Packed<T>& axis, const Packed<T>&
   return one > two ? one : two;
 }
 
-// Which of n triangles (a multiple of lanes) are kept apart from triangle s by the plane of either:
+// Which of n triangles (a multiple of lanes) are separated from triangle s by the plane of either:
 // the first two axes of triangles_meet, with its roundings.
 template <class T>
 static void planes_apart(const TriangleView<T>& t, int n, const T* s, T slack,
@@ -59,10 +59,10 @@ static void planes_apart(const TriangleView<T>& t, int n, const T* s, T slack,
   }
 }
 
-// Are two triangles kept apart by a product of their edges or, in one plane, by the normal of an
-// edge within it? The last fifteen axes of triangles_meet, an axis a lane; s and t as there:
-// relative to t's first corner. If so, `best` is the axis with the widest gap, from t to s: it may
-// keep more apart than these two.
+// Whether two triangles are separated by a product of their edges or, if coplanar, by the normal of
+// an edge within the plane. The last fifteen axes of triangles_meet, one axis per lane; s and t as
+// there: relative to t's first corner. If so, `best` is the axis with the widest gap, from t to s:
+// it may separate more than these two.
 template <class T>
 static bool edges_apart(const T* s, const T* t, T slack, T* best) {
   constexpr int w = OFG_BYTES / int(sizeof(T));
@@ -110,7 +110,7 @@ static bool edges_apart(const T* s, const T* t, T slack, T* best) {
 }
 
 // The plane of n faces (a multiple of lanes) that a cloud is farthest in front of: its normal and
-// how far, by the sum of the sizes of the normal's components.
+// the distance, by the sum of the sizes of the normal's components.
 template <class T>
 static T planes_gap(const TriangleView<T>& t, int n, const CloudView<T>& c, T* normal) {
   constexpr int w = OFG_BYTES / int(sizeof(T));
@@ -133,7 +133,7 @@ static T planes_gap(const TriangleView<T>& t, int n, const CloudView<T>& c, T* n
 }
 
 // Which of n triangles the segment from s[0..2] to s[3..5] surely misses: the signs that
-// segment_meets takes, with its roundings. A segment in the plane of a triangle is left to
+// segment_meets computes, with its roundings. A segment in the plane of a triangle is left to
 // segment_meets.
 template <class T>
 static void segments_miss(const TriangleView<T>& t, int n, const T* s, T slack,

@@ -65,7 +65,7 @@ def test_a_body_that_rounding_flattens_is_no_case():
     far = Body.convex(CORNERS * 1e-9 + 1, "crumb")
     assert scenario({}, far).case(0, 1.0, 0).query.a is far
     with pytest.raises(
-        ScenarioError, match="rounded to float32, a body is none any more. Body 'crumb'"
+        ScenarioError, match="rounded to float32, a body becomes invalid. Body 'crumb'"
     ):
         scenario({"precision": "float32"}, far).case(0, 1.0, 0)
 

@@ -99,7 +99,7 @@ def test_what_is_drawn_again(word, truth):
     assert not Scenario("mine", "overlap", "e", "a", (1.0,), None, (word,)).useless(
         Truth("clear" if word != "clear" else "hit")
     )
-    with pytest.raises(ValueError, match="redraw_if takes"):
+    with pytest.raises(ValueError, match="redraw_if accepts"):
         Scenario("mine", "overlap", "e", "a", (1.0,), None, ("touch",))
 
 
@@ -164,6 +164,6 @@ def test_what_draws_no_case_is_named(draw, said):
     """
     mistaken = Scenario("mine", "overlap", "mistakes", "none", (3.0,), draw)
     with pytest.raises(
-        ScenarioError, match=rf"'mine' drew no case at level 3, index 7, seed 5: .*{said}"
+        ScenarioError, match=rf"'mine' drew no valid case at level 3, index 7, seed 5: .*{said}"
     ):
         mistaken.case(5, 3.0, 7)

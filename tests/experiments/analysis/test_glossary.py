@@ -13,7 +13,7 @@ from experiments.cases import families
 from experiments.run.timing import SIZES
 from ofg import QUESTIONS
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 PAGE = (ROOT / "experiments" / "GLOSSARY.md").read_text()
 HEADINGS = re.findall(r"^### (.+)$", PAGE, re.M)
 TERMS = {h.lower() for h in HEADINGS} | set(re.findall(r"columns? `([^`]+)`", PAGE))

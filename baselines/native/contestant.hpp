@@ -1,0 +1,96 @@
+// An engine in a mode, with the blocks of cases that it answers, built of them alone.
+#pragma once
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+
+#include "case_file.hpp"
+#include "units.hpp"
+
+namespace lane {
+
+using Clock = std::chrono::steady_clock;
+
+struct Contestant {
+  Engine* engine;
+  Mode mode;
+  std::vector<std::size_t> blocks;  // first cases of those it answers
+  long long build;                  // nanoseconds, all cases
+  std::vector<Verdict> verdicts;
+  std::vector<long long> times;  // round by round, block by block; -1 where it took no part
+  bool slow = false;             // takes part in the first, the middle and the last round alone
+};
+
+// The blocks of which the engine answers every case.
+inline std::vector<std::size_t> blocks_of(const Engine& engine, const CaseFile& file) {
+  const auto takes = [&](const Case& c) {
+    const bool hulls = file.bodies[c.a].convex && file.bodies[c.b].convex;
+    return engine.answers(c.question) && (hulls || engine.takes_meshes());
+  };
+  std::vector<std::size_t> blocks;
+  for (std::size_t i = 0; i < file.cases.size(); i += file.block) {
+    const auto first = file.cases.begin() + std::ptrdiff_t(i);
+    if (std::all_of(first, first + file.block, takes)) blocks.push_back(i);
+  }
+  return blocks;
+}
+
+// Builds an engine of its cases alone: others may be of bodies that it refuses.
+inline long long built(Engine& engine, const CaseFile& file,
+                       const std::vector<std::size_t>& blocks) {
+  std::vector<Case> cases = file.cases;
+  std::vector<bool> mine(cases.size());
+  for (const std::size_t first : blocks)
+    for (std::size_t i = 0; i < file.block; ++i) mine[first + i] = true;
+  const Case& stand_in = cases[blocks.front()];
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    if (!mine[i]) cases[i] = stand_in;
+  // Bodies that no case of its own names are not for it to build.
+  std::vector<Body> bodies;
+  std::vector<std::uint32_t> place(file.bodies.size(), std::uint32_t(-1));
+  for (auto& c : cases)
+    for (auto* body : {&c.a, &c.b}) {
+      if (place[*body] == std::uint32_t(-1)) {
+        place[*body] = std::uint32_t(bodies.size());
+        bodies.push_back(file.bodies[*body]);
+      }
+      *body = place[*body];
+    }
+  const auto known = file.lengths.find(engine.name.substr(0, engine.name.find(' ')));
+  engine.length = known == file.lengths.end() ? 0 : known->second;
+  const auto start = Clock::now();
+  if (engine.length > 0) {
+    const Units units(bodies, cases, engine.length);
+    engine.build(units.bodies, units.cases);
+  } else {
+    engine.build(bodies, cases);
+  }
+  return std::chrono::nanoseconds(Clock::now() - start).count();
+}
+
+inline std::vector<Contestant> contestants_of(const Engines& engines, const CaseFile& file,
+                                              const std::vector<Mode>& modes) {
+  std::vector<Contestant> all;
+  for (const auto& engine : engines) {
+    auto blocks = blocks_of(*engine, file);
+    long long build = -1;
+    for (const Mode mode : modes) {
+      if (blocks.empty() || !engine->stands(mode)) continue;
+      if (build < 0) {
+        build = built(*engine, file, blocks);
+        std::erase_if(blocks, [&](std::size_t first) {
+          for (std::size_t i = 0; i < file.block; ++i)
+            if (engine->refuses(first + i)) return true;
+          return false;
+        });
+        if (blocks.empty()) break;
+      }
+      Contestant one{engine.get(), mode, blocks, build, {}, {}};
+      one.verdicts.resize(blocks.size() * file.block);
+      all.push_back(std::move(one));
+    }
+  }
+  return all;
+}
+
+}  // namespace lane

@@ -1,0 +1,7 @@
+"""Everything timed in C++: OFG and the engines as libraries, on the same certified cases.
+
+    ofg-bench native [RUN]
+
+cells of a run (certified.py) or of hulls by size (synthetic.py), measured (measuring.py), compared
+by class of build (classes.py, summary.py) and written (page.py, saving.py).
+"""

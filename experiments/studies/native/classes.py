@@ -1,0 +1,25 @@
+"""Which builds are compared: like with like, by the instruction set they are compiled for."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+V3 = "x86-64-v3"
+#: class -> the instruction set of OFG in it. Engines stand in the first with their generic builds,
+#: in the others with those for x86-64-v3 (AVX2 and FMA; none is built for AVX-512)
+CLASSES = {"generic": "SSE2", V3: "AVX2", "AVX-512": "AVX-512"}
+LIBRARIES = {"fcl": "FCL", "bullet": "Bullet", "mujoco": "MuJoCo", "coal": "Coal", "parry": "parry"}
+
+
+def library(engine: str) -> str:
+    """What an engine is of: "OFG", or a name of LIBRARIES."""
+    return LIBRARIES.get(engine.split("-")[0].split(",")[0].split(" ")[0], "OFG")
+
+
+def standing(rows: pd.DataFrame, name: str) -> pd.DataFrame:
+    """The rows of a class. An engine of which there is one build alone stands in all with it."""
+    ours = rows.engine.map(library) == "OFG"
+    newer = rows.isa == V3
+    built = set(rows.engine[newer])
+    theirs = ~newer if name == "generic" else newer | ~rows.engine.isin(built)
+    return rows[(ours & (rows.isa == CLASSES[name])) | (~ours & theirs)]

@@ -1,0 +1,181 @@
+"""The page of the native study."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from .classes import CLASSES, LIBRARIES, V3, library
+from .measuring import CELL
+from .summary import OURS, steps
+
+REPAIRED = "ofg k=8 repairs=all"
+SCREENED = "ofg k=8 screen=True"
+ALIKE = [*CELL, "mode"]
+ORDER = {
+    "mode": ("cold", "warm", "batch", "coherent"),
+    "situation": ("gap", "apart", "near", "contact", "shallow", "deep", "clear", "hit"),
+}
+
+
+def page(rows: pd.DataFrame, facts: list[str], parts: bool = True) -> str:
+    """Markdown. rows: as `summary` gives them. facts: what was built and asked.
+
+    parts: with tables of every contestant and of OFG's steps.
+    """
+    rows = ordered(rows)
+    lines = ["# Native study", "", *facts, builds(rows), "", *LEGEND]
+    for name in CLASSES:
+        if (rows["class"] == name).any():
+            lines += ["", f"## {title(name)}", "", markdown(overview(class_of(rows, name)))]
+    if parts:
+        lines += [*details(rows), *_steps(rows)]
+    return "\n".join(lines) + "\n"
+
+
+LEGEND = [
+    (
+        "Nanoseconds per query: medians over rounds (three, where a round takes a contestant half"
+        " a second), then over blocks of queries, less what the call and the clock cost. Of each"
+        " library the configuration that took least stands in the cell, whatever it answers; in"
+        " brackets, wherever there are any, its wrong answers of the certified cases. Quotient:"
+        f" {OURS} over the fastest of all libraries, in batch cells {SCREENED}; block by block,"
+        " with its 95 % bootstrap interval."
+    ),
+    "",
+    (
+        "cold: every pair once, with bodies of its own. warm: many poses of one pair, call by call."
+        " batch: the same in one call; no engine has such a call, so their single calls stand there"
+        " (*). coherent: small steps along a trajectory, each engine with what it remembers, too."
+    ),
+]
+
+
+def class_of(rows: pd.DataFrame, name: str) -> pd.DataFrame:
+    """The rows of a class; of AVX-512 with the engines in their builds for x86-64-v3."""
+    own = rows[rows["class"] == name]
+    theirs = rows[(rows["class"] == V3) & (rows.engine.map(library) != "OFG")]
+    return pd.concat([own, theirs]) if name == "AVX-512" else own
+
+
+def ordered(rows: pd.DataFrame) -> pd.DataFrame:
+    """By mode, situation, question and shape; sizes stay in the order in which they were asked."""
+    places = {column: {word: i for i, word in enumerate(words)} for column, words in ORDER.items()}
+    keys = rows.assign(
+        **{
+            column: rows[column].map(place).astype(float).fillna(99)
+            for column, place in places.items()
+        }
+    )
+    at = keys.sort_values([*ORDER, "question", "bodies"], kind="stable").index
+    return rows.loc[at]
+
+
+def builds(rows: pd.DataFrame) -> str:
+    """What was built how."""
+    each = rows.groupby(["build", "isa"], sort=False, observed=True).size().index
+    engines = [f"{build} ({isa})" for build, isa in each if isa not in CLASSES.values()]
+    own = {build for build, isa in each if isa in CLASSES.values()}
+    return f"Builds: OFG by {', '.join(sorted(own))}; {'; '.join(engines)}."
+
+
+def title(name: str) -> str:
+    """What stands in a class."""
+    theirs = "generic" if name == "generic" else f"{V3}"
+    return f"OFG with {CLASSES[name]}, engines in {theirs} builds or the only one there is"
+
+
+def overview(rows: pd.DataFrame) -> pd.DataFrame:
+    """A row per cell and mode: OFG as written, with its screen and repaired; each library."""
+    made = []
+    for key, cell in with_single_calls(rows).groupby(ALIKE, sort=False, observed=True):
+        row = dict(zip(ALIKE, key))
+        for name in (OURS, SCREENED, REPAIRED):
+            row[name] = shown(cell[cell.engine == name], named=False)
+        for name in LIBRARIES.values():
+            row[name] = shown(cell[cell.engine.map(library) == name])
+        own = cell[cell.engine == (SCREENED if row["mode"] == "batch" else OURS)]
+        row["quotient"] = next((quotient(r) for _, r in own.iterrows()), "-")
+        made.append(row)
+    return pd.DataFrame(made)
+
+
+def with_single_calls(rows: pd.DataFrame) -> pd.DataFrame:
+    """The rows, and in batch cells those of the engines' single calls as well, marked."""
+    cells = rows[rows["mode"] == "batch"][CELL].drop_duplicates()
+    single = rows[(rows["mode"] == "warm") & (rows.engine.map(library) != "OFG")]
+    single = single.merge(cells, on=CELL).assign(mode="batch", single=True)
+    return ordered(pd.concat([rows.assign(single=False), single], ignore_index=True))
+
+
+def shown(cell: pd.DataFrame, named: bool = True) -> str:
+    """The row of least time: ns, its name, its wrong answers."""
+    for row in cell.sort_values("ns").head(1).itertuples():
+        wrong, known = row.misses + row.false_alarms, row.hits + row.clears
+        name = f" {row.engine}" if named else ""
+        star = "*" if row.single else ""
+        return f"{row.ns:,.0f}{star}{name}" + (f" [{wrong:.0f}/{known:.0f}]" if wrong else "")
+    return "-"
+
+
+def quotient(row: pd.Series) -> str:
+    """The ratio of a row, with its interval."""
+    return "-" if pd.isna(row.ratio) else f"{row.ratio:.2f} ({row.low:.2f}-{row.high:.2f})"
+
+
+def details(rows: pd.DataFrame) -> list[str]:
+    """For each mode and situation every contestant of the class V3 against the sizes of hulls."""
+    lines = [
+        "",
+        f"## Every contestant: OFG with {CLASSES[V3]}, engines in {V3} builds",
+        "",
+        (
+            f"ns; then the quotient with {OURS}, for OFG itself with the fastest engine; then"
+            " wrong answers. Other shapes, classes and OFG in floats: rows.parquet."
+        ),
+    ]
+    left = "to step|precision=float"
+    rows = rows[(rows["class"] == V3) & ~rows.engine.astype(str).str.contains(left)]
+    rows = rows[~rows.bodies.isin(["ico", "cube"])]
+    for (mode, situation), part in rows.groupby(["mode", "situation"], sort=False, observed=True):
+        order = part.groupby("engine", observed=True).ns.median().sort_values().index
+        part = part.assign(
+            place=part.bodies.astype(str)
+            + " "
+            + part.faces.astype(str)
+            + " "
+            + part.question.astype(str),
+            shown=part.apply(_detail, axis=1),
+        )
+        grid = part.pivot(index="engine", columns="place", values="shown").loc[order]
+        grid = grid[list(dict.fromkeys(part.place))].fillna("-").reset_index()
+        lines += ["", f"### {mode}, {situation}", "", markdown(grid)]
+    return lines
+
+
+def _detail(row: pd.Series) -> str:
+    wrong, known = row.misses + row.false_alarms, row.hits + row.clears
+    return f"{row.ns:,.0f}; {quotient(row)}" + (f"; {wrong:.0f}/{known:.0f}" if wrong else "")
+
+
+def _steps(rows: pd.DataFrame) -> list[str]:
+    if not rows.engine.astype(str).str.contains("to step").any():
+        return []
+    return [
+        "",
+        f"## Steps of OFG, {CLASSES[V3]}, ns",
+        "",
+        "Many poses of one pair: differences of what stops after a step.",
+        "",
+        markdown(steps(rows, V3)),
+    ]
+
+
+def markdown(table: pd.DataFrame) -> str:
+    """A Markdown table without padding."""
+    head = "| " + " | ".join(map(str, table.columns)) + " |"
+    lines = [head, "|" + "---|" * len(table.columns)]
+    cells = (
+        [f"{v:,.0f}" if isinstance(v, float) else str(v) for v in row]
+        for row in table.itertuples(index=False)
+    )
+    return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in cells)])

@@ -1,0 +1,68 @@
+"""Twins answer alike: the native lane, asked the cases of the run quick, beside the run's rows.
+
+Of the engines that are built here (ofg-bench native --build); OFG_NATIVE=required demands all.
+"""
+
+import os
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from baselines import native
+from experiments.run.folder.store import Store
+from experiments.studies.native import certified, measuring, twins
+from experiments.studies.native.classes import V3
+
+QUICK = Store(Path(__file__).parents[3] / "results" / "quick")
+MOST = 20  # cases of a cell
+REQUIRED = os.environ.get(native.REQUIRED) == "required"
+
+
+@pytest.fixture(scope="module")
+def answers() -> pd.DataFrame:
+    if not (native.FOLDER / "lane").is_file():
+        if REQUIRED:
+            pytest.fail("the native lane is not built; build it with: ofg-bench native --build")
+        pytest.skip("built by: ofg-bench native --build")
+    cells = certified.cells(QUICK, MOST)
+    return pd.concat([measuring.measure(cell, 1, 0, None)[1] for cell in cells])
+
+
+def test_twins_answer_the_same_cases_alike(answers):
+    """Builds for x86-64-v3 round otherwise, by fused multiply-adds: they are not compared here."""
+    observed = QUICK.read("observations.parquet")
+    told = twins.disagreements(answers[answers.isa != V3], observed)
+    assert not told.differ.any(), told[told.differ > 0].to_string()
+    assert {"ofg k=4", "ofg k=8", "ofg k=16", "ofg k=8 repairs=all"} <= set(told.engine)
+    assert (told.cases >= 50).all()
+
+
+def test_every_engine_with_a_method_in_the_run_is_joined(answers):
+    """FCL, Bullet and MuJoCo: a method of the run has a twin wherever its plugin is built."""
+    built, wanted = (
+        set(native.building.standing()),
+        {
+            "fcl": {"fcl-convex", "fcl-convex-exact", "fcl-convex-indep", "fcl-mesh"},
+            "fcl_casts": {"fcl-ccd-convex", "fcl-advancement-convex"},
+            "bullet": {"bullet", "bullet-no-margin"},
+            "mujoco": {"mujoco", "mujoco-exact", "mujoco-libccd"},
+        },
+    )
+    assert not REQUIRED or set(wanted) <= built
+    labels = QUICK.read("observations.parquet").method.unique()
+    joined = set(twins.pairs(answers.engine.unique(), labels))
+    for plugin in built & set(wanted):
+        assert wanted[plugin] <= joined
+
+
+def test_answers_do_not_hang_on_what_the_memory_held(answers, monkeypatch):
+    """FCL's interpolated motions read a point before it is written: they got blocks of a size
+    that FCL does not ask for, and answered by what was freed before."""
+    monkeypatch.setenv("GLIBC_TUNABLES", "glibc.malloc.perturb=128")
+    cells = [cell for cell in certified.cells(QUICK, MOST) if cell.question == "motion"]
+    again = pd.concat([measuring.measure(cell, 1, 0, None)[1] for cell in cells])
+    key = ["engine", "isa", "build", "case"]
+    both = answers.merge(again, on=key, suffixes=("", "_again"))
+    assert len(both) == len(again) and (both.hit == both.hit_again).all()
+    pd.testing.assert_series_equal(both.time, both.time_again, check_names=False)
