@@ -11,7 +11,7 @@ from baselines import native as engines
 from experiments import manifest
 from experiments.config import TimingChoice
 from experiments.progress import stage
-from experiments.reading import reading
+from experiments.reading import opened, reading
 from experiments.store import Store
 
 from . import certified, lanes, saving, synthetic, twins
@@ -35,6 +35,8 @@ def study(
 
     NativeError where the lane cannot be built or run; StoreError where `run` is no finished run.
     """
+    if run is not None:
+        opened(run, False)  # before anything is built
     built = head()
     if run is None:
         cells = list(synthetic.cells(cases, poses // 32 * 32, seed))
