@@ -34,8 +34,6 @@ def study(
 
     NativeError where the lane cannot be built or run; StoreError where `run` is no finished run.
     """
-    if run is not None:
-        opened(run, False)  # before anything is built
     built = head()
     if run is None:
         cells = list(synthetic.cells(cases, poses // 32 * 32, seed))
