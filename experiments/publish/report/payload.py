@@ -1,5 +1,5 @@
-"""What the page is given: the rows of a run, column by column, and the bodies of the cases it can
-draw, in bytes.
+"""The data of the page: the rows of a run, column by column, and the bodies of the cases that it
+can draw, in bytes.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from experiments.run.timing import SIZES, situation_of, size_of
 from ofg import Body, Query
 from ofg.decomposition import kept_at
 
-from . import lanes, selection
+from . import glossary, lanes, selection
 from .certificate import drawable
 
 CODES = {
@@ -45,16 +45,16 @@ CODES = {
     "timeout": "t",
 }
 SHOWN = 24  # cases of each kind that the gallery can draw for each method
-BYTES = 8_000_000  # of bodies, before compression: what a page may weigh
-CASES = 3_000  # that a page can draw: what its making may take
-EXACT = 5_000  # vertices up to which a body is never rounded
-# faces up to which a selection is drawn; of k = inf on a large mesh the page only says how many
+BYTES = 8_000_000  # limit on the bodies of a page, before compression
+CASES = 3_000  # limit on the cases that a page can draw, which bounds the time to make it
+EXACT = 5_000  # bodies of up to this many vertices are never rounded
+# A larger selection is not drawn; for k = inf on a large mesh the page gives only its size.
 SELECTED = 2_000
 OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
 
 def of_run(store: Store, made_tables=None) -> dict:
-    """Everything the page of a run shows; see page/data.js for its reading."""
+    """All data of the page of a run; page/data.js decodes it."""
     rows, found = filled(nesting.of(store, store.read("cases.parquet"))), outcome.outcomes(store)
     made = {
         "mode": "run",
@@ -64,6 +64,7 @@ def of_run(store: Store, made_tables=None) -> dict:
         "sizes": [name for _, name in SIZES],
         "bands": views.gap_bands(pd.Series([], dtype=float))[1],
         "scenarios": _scenarios(rows),
+        "terms": glossary.terms(),
         **_observations(found, rows),
     }
     made["methods"] = [_method(label, made["run"]["versions"]) for label in made["labels"]]
@@ -84,10 +85,10 @@ def of_case(
     refused: str = "",
     pieces: pd.DataFrame | None = None,
 ) -> dict:
-    """The same for one case: `row` is its row of cases.parquet, `observations` what methods said
-    about it, `pieces` its row of pieces.parquet if it has one.
+    """The data of the page of one case: `row` is its row of cases.parquet, `observations` the
+    answers to it, `pieces` its row of pieces.parquet, if any.
 
-    refused: why the checker does not accept its label, if it does not.
+    refused: why the checker rejects its label, or "".
     """
     rows = nesting.added(
         filled(pd.DataFrame([row])),
@@ -119,8 +120,8 @@ def of_case(
 
 
 def encode(payload: dict) -> str:
-    """JSON, gzip, base64: what page/data.js takes apart with DecompressionStream. The same bytes
-    for the same payload.
+    """JSON, gzip, base64, which page/data.js decodes with DecompressionStream. Equal payloads give
+    equal bytes.
     """
     return pack(json.dumps(_plain(payload), allow_nan=False, separators=(",", ":")).encode())
 
@@ -224,11 +225,10 @@ def _method(label: str, versions: dict) -> dict:
 
 
 def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
-    """labels; outcome: of each method one letter for each case ("." where there is no row); time,
-    error, detail: sparse.
+    """labels; outcome: for each method, one letter per case ("." if there is no row); time, error,
+    detail: sparse.
 
-    truth, sparse: the label and whether it can tunnel, where a method is judged by pieces and not
-    by the case.
+    truth, sparse: the label and whether the method can tunnel, if it is judged by pieces.
     """
     place = {case: i for i, case in enumerate(rows.case)}
     labels = list(dict.fromkeys(found.method))
@@ -278,8 +278,8 @@ def _table(table, found: pd.DataFrame) -> dict:
 
 
 def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
-    """Bodies, certificates and OFG's selections of the cases that can be drawn: first those of the
-    gallery, then the rest, while there is room.
+    """Bodies, certificates and OFG's selections of the cases that can be drawn: first the cases of
+    the gallery, then the others while there is room.
     """
     wanted = gallery(found)
     order = list(dict.fromkeys([*wanted, *rows.case]))
@@ -298,10 +298,10 @@ def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
 
 
 def gallery(found: pd.DataFrame) -> dict[str, list[str]]:
-    """case -> methods that it is shown for.
+    """case -> the methods for which the gallery shows it.
 
-    Of each method up to SHOWN misses, false alarms and late times, spread over scenarios and
-    levels; of late times the latest.
+    For each method, up to SHOWN misses and SHOWN false alarms, spread over scenarios and levels,
+    and the SHOWN latest times.
     """
     wanted: dict[str, list[str]] = {}
     for label, part in found.groupby("method", sort=False):
@@ -323,11 +323,11 @@ def _spread(part: pd.DataFrame) -> pd.DataFrame:
 
 
 class Shapes:
-    """Collects bodies (each once), certificates and selections until `room` bytes are full."""
+    """Collects bodies (each once), certificates and selections, up to `room` bytes of bodies."""
 
     def __init__(self, room: float, anew: bool = False):
-        """anew: meshes may be decomposed, which can take a minute each; else OFG's pieces are shown
-        where they are kept from the run.
+        """anew: whether to decompose meshes, which can take a minute each; otherwise OFG's pieces
+        are shown only if the run left them in the cache.
         """
         self.room, self.anew, self.bytes = room, anew, bytearray()
         self.bodies, self.drawn, self.proofs, self.ofg = [], {}, {}, {}
@@ -360,8 +360,8 @@ class Shapes:
         }
 
     def _trace(self, query: Query, label: str, truth) -> dict | None:
-        """What OFG looked at; None where the method refuses the query or its pieces are not kept.
-        "bodies" where it saw pieces of a mesh.
+        """OFG's selections; None if the method refuses the query or its pieces are not in the
+        cache. "bodies": indices of the bodies in the query, which may be pieces of a mesh.
         """
         (method,) = registry.make(label)
         options = {**method.options()}
@@ -423,7 +423,9 @@ def _cost(body: Body) -> int:
 
 
 def _plain(value):
-    """JSON has no NaN: None in its place; numpy's numbers become Python's."""
+    """The value with NaN and infinities replaced by None, as JSON has neither, and numpy numbers by
+    Python's.
+    """
     if isinstance(value, dict):
         return {str(k): _plain(v) for k, v in value.items()}
     if isinstance(value, (list, tuple, np.ndarray)):
