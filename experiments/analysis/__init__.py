@@ -1,1 +1,1 @@
-"""From the rows of a run to outcomes, rates and costs, and to the comparison of two runs."""
+"""Derive outcomes, rates and costs from the rows of a run, and compare two runs."""

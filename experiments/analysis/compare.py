@@ -1,4 +1,4 @@
-"""What changed between two runs: accuracy to the case, time paired by case."""
+"""Compare two runs: accuracy case by case, time as ratios paired by case."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from experiments.run.progress import say
 
 from . import costs, metrics, outcome
 
-# of the step: reported times of impact that differ by less are the same, so that libm's last bit is
-# no change
+# Share of the step below which two times of impact count as equal, so that a difference in the last
+# bit of libm is not a change.
 SAME_TIME = 1e-9
-ROUNDING = 1e-6  # a few steps of float32
-# What a case asks. Another processor's sines can move the last bit of an aimed pose or vertex past
-# a float32 boundary (7 bodies of 459 cases when AVX was masked); such a case is another question,
-# and its answers are not compared.
+ROUNDING = 1e-6  # a few units in the last place of float32
+# The columns that define a query. The sines of another processor can move the last bit of a pose or
+# vertex across a float32 boundary (7 bodies of 459 cases when AVX was masked); such a case is a
+# different query, and its answers are not compared.
 INPUT = (
     "body_a",
     "body_b",
@@ -60,13 +60,16 @@ REFERENCE = (
 
 @dataclass(frozen=True)
 class Difference:
-    """only_cases, only_methods: what one run has and the other has not, (first, second). labels:
-    cases whose truth moved. answers: rows (case, method, question, before, after) whose status,
-    verdict, outcome or time of impact moved. rates: accuracy per question and method before and
-    after, where it moved. times: ratios second over first, for whoever was timed in both. compared:
-    pairs of case and method that both runs have. remade: cases whose numbers differ in the second
-    run, left out of all this. changed: those of them that differ by more than rounding: they ask a
-    different question, and the runs are not comparable.
+    """The differences between two runs.
+
+    only_cases, only_methods: names that occur in one run only, (first, second). labels: cases whose
+    certified truth changed. answers: rows (case, method, question, before, after) whose status,
+    answer, outcome or time of impact changed. rates: accuracy per question and method before and
+    after, where it changed. times: time ratios, second run to first, of the methods timed in both.
+    compared: the number of pairs of case and method in both runs. remade: cases whose numbers
+    differ in the second run; they are excluded from all of the above. mostly_remade: whether they
+    are more than a tenth of the cases. changed: those of `remade` that differ by more than
+    rounding; they are different queries, and the runs are not comparable.
     """
 
     only_cases: tuple[list[str], list[str]]
@@ -86,8 +89,8 @@ class Difference:
 
     @property
     def identical(self) -> bool:
-        """Accuracy is the same, case by case, over the same cases and methods; a tenth of the cases
-        at most differ by rounding.
+        """Whether accuracy is the same, case by case, over the same cases and methods, and at most
+        a tenth of the cases differ by rounding.
         """
         return (
             self.same_content
@@ -100,7 +103,7 @@ class Difference:
 
 
 def compare(first: Store, second: Store) -> Difference:
-    """Raises StoreError for a run that is not finished."""
+    """The differences between two runs. Raises StoreError for an unfinished run."""
     pieces = _judged_by_pieces(first, second)
     a, b = (
         outcome.outcomes(store, pieces, nested=False).drop(columns=list(INPUT), errors="ignore")
@@ -124,19 +127,19 @@ def compare(first: Store, second: Store) -> Difference:
 
 
 def _judged_by_pieces(first: Store, second: Store) -> bool:
-    """Whether both runs can be; where one alone has its pieces, the reader is told."""
+    """Whether both runs have certified pieces; prints a notice if only one has."""
     has = [store.has(piece_truth.FILES[0]) for store in (first, second)]
     if any(has) and not all(has):
         without = (first, second)[has.index(False)]
         say(
-            f"{without.folder} has no {piece_truth.FILES[0]}, as runs had none once: in both,"
-            " methods that decompose meshes are judged by the meshes."
+            f"{without.folder} has no {piece_truth.FILES[0]}, as it was made by an older version."
+            " In both runs, methods that decompose meshes are judged by the labels of the meshes."
         )
     return all(has)
 
 
 def _remade(first: Store, second: Store) -> list[str]:
-    """Cases of both runs whose bodies, poses or motion differ."""
+    """Cases that occur in both runs with different bodies, poses or motions."""
     sides = [
         filled(store.read("cases.parquet"))
         .set_index("case")[list(INPUT)]
@@ -149,9 +152,7 @@ def _remade(first: Store, second: Store) -> list[str]:
 
 
 def _changed(first: Store, second: Store, remade: list[str]) -> list[str]:
-    """Of the cases whose numbers differ, those that differ by more than rounding may make of
-    them.
-    """
+    """The cases in `remade` that differ by more than rounding can explain."""
     sides = [
         filled(s.read("cases.parquet")).drop_duplicates("case").set_index("case")
         for s in (first, second)
@@ -160,9 +161,11 @@ def _changed(first: Store, second: Store, remade: list[str]) -> list[str]:
 
 
 def _rounded(a: pd.Series, b: pd.Series) -> bool:
-    """The same words and claims, and numbers within a few float32 steps; a gap by half at most, as
-    a small one may be made by rounding alone. Bodies count by size and faces: a reference has no
-    more.
+    """Whether two versions of a case differ only by rounding.
+
+    Text and labels must be equal and numbers must agree within ROUNDING. Gaps may differ by half,
+    since a small gap may result from rounding alone. Bodies are compared by size and number of
+    faces, as a reference stores nothing else of them.
     """
     words = (
         "scenario",
@@ -189,7 +192,7 @@ def _rounded(a: pd.Series, b: pd.Series) -> bool:
 
 
 def reference(run: Store, into: Store) -> None:
-    """Keep of a run what `compare` needs for accuracy: answers and labels, without bodies,
+    """Write to `into` what `compare` needs for accuracy: answers and labels, without bodies,
     certificates and times.
     """
     run.read("observations.parquet")

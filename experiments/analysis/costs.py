@@ -1,4 +1,4 @@
-"""What a query costs: nanoseconds per group, and paired ratios between methods."""
+"""Query time: nanoseconds per group, and paired ratios between methods."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from experiments.run.timing import FLOOR, LOST, PROBE
 
 def costs(store: Store, by=("question", "faces", "situation")) -> pd.DataFrame:
     """Nanoseconds per query for each group of `by` and method: gross (median over cases of the
-    median over rounds), floor, net = gross - floor.
+    median over rounds), floor, and net = max(gross - floor, 0).
 
-    low, high: 95 % bootstrap interval of gross over cases (scipy). build: the dearest `prepare` of
-    the group, when caches are cold.
+    low, high: 95 % bootstrap interval of gross over cases (scipy). build: the longest `prepare` of
+    the group, with cold caches.
     """
     times = _timed(store)
     rows = []
@@ -42,20 +42,20 @@ def costs(store: Store, by=("question", "faces", "situation")) -> pd.DataFrame:
 
 
 def paired_ratios(store: Store, reference: str) -> pd.DataFrame:
-    """Net time of each method over that of `reference`, case by case on the cases both answered:
-    median ratio, bootstrap interval.
+    """Ratio of the net time of each method to that of `reference`, case by case on the cases that
+    both answered: median and bootstrap interval.
 
-    Without the groups that have no ratio: see `ratios`.
+    Groups without a ratio are omitted: see `ratios`.
     """
     bins = ["question", "faces", "situation"]
     return ratios(case_costs(store), reference, bins).dropna(subset=["ratio"])
 
 
 def case_costs(store: Store) -> pd.DataFrame:
-    """A row per timed case and method: ns (median over rounds), floor of its bin, net = ns - floor
-    or 0, build_ns.
+    """A row per timed case and method: ns (median over rounds), floor of its bin, net =
+    max(ns - floor, 0), build_ns.
 
-    noise: of the floor, the interquartile range of all its rounds in the bin.
+    noise: the interquartile range of all rounds of the floor in the bin, ns.
     """
     key = ["question", "faces", "situation", "method"]
     times = _timed(store)
@@ -71,8 +71,8 @@ def _spread(rounds: pd.Series) -> float:
 
 
 def told(times: pd.DataFrame, side: str = "") -> pd.Series:
-    """Whether the net time of each row of case_costs can be told from none: it is above the noise
-    of the floor that was taken off."""
+    """Whether the net time of each row of case_costs is distinguishable from zero: it exceeds the
+    noise of the subtracted floor."""
     return times[f"net{side}"] > times[f"noise{side}"]
 
 
@@ -99,9 +99,9 @@ def medians(values: pd.DataFrame, column: str, by: list[str]) -> pd.DataFrame:
 def ratios(times: pd.DataFrame, reference: str, by: list[str]) -> pd.DataFrame:
     """`paired_ratios` of rows of case_costs, for each group of `by` and method.
 
-    Cases at which the reference's net time lies within the noise of its floor (see `told`) are no
-    denominators: `in_noise` counts them, `pairs` the rest. A group of which they are half or more
-    has no ratio (NaN), as its median would be of those that happened to take long.
+    Cases in which the reference's net time lies within the noise of its floor (see `told`) are not
+    used as denominators: `in_noise` counts them, `pairs` counts the rest. If they are half of a
+    group or more, its ratio is NaN, since the median would be biased towards slow cases.
     """
     base = times[times.method == reference][["case", "net", "noise"]]
     both, rows = times.merge(base, on="case", suffixes=("", "_reference")), []
@@ -117,21 +117,21 @@ def ratios(times: pd.DataFrame, reference: str, by: list[str]) -> pd.DataFrame:
 
 
 def _timed(store: Store) -> pd.DataFrame:
-    """timings.parquet without the probe and what was lost; ns: the median over rounds."""
+    """timings.parquet without the noise probe and lost timings; ns: the median over rounds."""
     times = store.read("timings.parquet")
     times = times[~times.method.isin([PROBE, LOST])]
     return times.assign(ns=[float(np.median(r)) for r in times.rounds_ns])
 
 
 def lost(store: Store) -> list[str]:
-    """What was not timed because its process died or hung: the method, its bin and the reason."""
+    """Timings lost because the process died or hung: the method, its bin and the reason."""
     rows = store.read("timings.parquet").query("method == @LOST")
     return [f"{r.case} ({r.question}, {r.faces} faces, {r.situation})" for r in rows.itertuples()]
 
 
 def noise(store: Store) -> float:
-    """How far the 90th percentile of the probe lies above its median, worst bin: 0.05 is a quiet
-    machine, 0.3 a disturbed one.
+    """Relative excess of the probe's 90th percentile over its median, in the worst bin: 0.05
+    indicates a quiet machine, 0.3 a disturbed one.
     """
     probe = store.read("timings.parquet").query("method == @PROBE").rounds_ns
     return max(

@@ -1,4 +1,4 @@
-"""Counts and rates against certified labels, never against another method."""
+"""Counts and rates relative to certified labels, never to another method."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from scipy.stats import binomtest
 
 from .outcome import JUDGED
 
-#: count, total and the name of their rate
+#: columns of the count and its total, and the name of the rate
 RATES = (
     ("misses", "hits", "miss"),
     ("false_alarms", "clears", "alarm"),
@@ -27,13 +27,12 @@ def wilson(count: int, total: int) -> tuple[float, float]:
 
 
 def rates(table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
-    """Counts per group of `by`, in order of first appearance: asked, answered, hits and misses,
-    clears and false alarms, tunnelling.
+    """Counts per group of `by`, in order of first appearance: cases asked and answered, hits and
+    misses, clears and false alarms, tunnelling.
 
-    judged: the certified cases that the method answered, touching and contained ones left out.
-    wrong: misses and false alarms of them. beyond: those of the wrong ones that are beyond the
-    method's own tolerance. Rates are over the judged;
-    *_low, *_high are Wilson intervals.
+    judged: certified cases that the method answered, without touching and contained cases. wrong:
+    misses and false alarms among them. beyond: wrong answers outside the method's own tolerance.
+    The denominators of the rates are in RATES; *_low and *_high are 95 % Wilson intervals.
     """
     judged = table.outcome.isin(JUDGED)
     touching = table.outcome == "touching"
@@ -68,8 +67,8 @@ def rates(table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
 
 
 def times_of_impact(table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
-    """Errors of the time of impact per group, as shares of the step: how many, median of the
-    absolute error, worst late and early.
+    """Errors of the time of impact per group, as shares of the step: number, median and 95th
+    percentile of the absolute error, and number and extreme of late and early errors.
     """
     found = table[table.error.notna()]
     grouped = found.groupby(by, sort=False).error

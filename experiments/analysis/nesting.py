@@ -1,5 +1,5 @@
-"""Which hits no test of surfaces can see: one body lies inside the other, and their surfaces never
-meet.
+"""Find the hits that a test of surfaces cannot detect: one body lies inside the other, and their
+surfaces never meet.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from experiments.run.folder.rows import filled, named
 from experiments.run.folder.store import Store
 from ofg import Motion, Pose
 
-#: Least depth inside a plane, as a share of the lengths that it was computed from: some 4,000
+#: Minimum depth behind a plane, relative to the lengths from which it is computed: some 4,000
 #: rounding errors of a double.
 DEPTH = 1e-12
 
@@ -22,9 +22,9 @@ _made: WeakKeyDictionary[Store, pd.DataFrame] = WeakKeyDictionary()
 
 
 def of(store: Store, cases: pd.DataFrame) -> pd.DataFrame:
-    """`added` for the cases of a finished run, once for each Store."""
+    """`added` for the cases of a finished run, computed once per Store."""
     if not store.has("bodies.parquet"):
-        return cases.assign(kind="", nested=False)  # a reference for `compare` keeps none
+        return cases.assign(kind="", nested=False)  # a reference for `compare` has no bodies
     made = _made.get(store)
     if made is None or list(made.case) != list(cases.case):
         made = _made[store] = added(cases, store.read("bodies.parquet"))[["case", "kind", "nested"]]
@@ -32,12 +32,12 @@ def of(store: Store, cases: pd.DataFrame) -> pd.DataFrame:
 
 
 def added(cases: pd.DataFrame, bodies: pd.DataFrame) -> pd.DataFrame:
-    """The cases with a column `kind` (of the bodies: "convex", "union", or "mesh" if one is) and a
-    column `nested`.
+    """The cases with two more columns: `kind` (of the bodies: "convex", "union", or "mesh" if one
+    is) and `nested`.
 
-    nested: proved to double precision with a margin, for hits at one pose and of translations,
-    where the outer body is convex or a union. What is not proved counts as not nested, so that a
-    miss stays a miss.
+    nested: containment is proved in double precision with a margin, for hits of overlap and
+    translation queries whose outer body is convex or a union. A case without a proof counts as not
+    nested, so a miss remains a miss.
     """
     rows = {row.body: row for row in bodies.itertuples()}
     kinds = {name: row.kind for name, row in rows.items()}
@@ -47,8 +47,8 @@ def added(cases: pd.DataFrame, bodies: pd.DataFrame) -> pd.DataFrame:
             solids[row.body] = _Solid(row)
     if unknown := sorted({*cases.body_a, *cases.body_b} - rows.keys()):
         raise ValueError(
-            f"bodies.parquet has no body {unknown[0]}, which cases.parquet names. Take the run anew"
-            " from where it was made, or make it again."
+            f"bodies.parquet has no body {unknown[0]}, which cases.parquet names. Copy the run"
+            " again from its source, or repeat it."
         )
     kind = [_kind(kinds[a], kinds[b]) for a, b in zip(cases.body_a, cases.body_b)]
     nested = [
@@ -63,7 +63,7 @@ def _kind(*kinds: str) -> str:
 
 
 class _Solid:
-    """The vertices of a body and the planes of its convex pieces, made when they are asked for."""
+    """The vertices of a body and the planes of its convex pieces, computed on first use."""
 
     def __init__(self, row):
         self.vertices = np.reshape(row.vertices, (-1, 3))
@@ -71,14 +71,14 @@ class _Solid:
         if not 0 <= self.faces.min() <= self.faces.max() < len(self.vertices) or np.sum(
             row.piece_faces
         ) != len(self.faces):
-            raise ValueError("its faces are not of its vertices, or its pieces not of its faces.")
+            raise ValueError("its faces do not match its vertices, or its pieces its faces.")
         self.row, self.radius = row, np.linalg.norm(self.vertices, axis=1).max()
         self._planes = None
 
     @property
     def pieces(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Of each convex piece: (m, 3) normals of any length, (m, 3) points on the planes, (m,)
-        products of edges.
+        """For each convex piece: (m, 3) normals of any length, (m, 3) points on the planes, (m,)
+        products of edge lengths.
         """
         if self._planes is None:
             first = np.concatenate([[0], np.cumsum(self.row.piece_faces)])
@@ -96,7 +96,7 @@ def _planes(triangles: np.ndarray):
 def _nested(row, solids) -> bool:
     a, b = solids[row.body_a], solids[row.body_b]
     pose_a, pose_b = Pose(row.quaternion_a, row.position_a), Pose(row.quaternion_b, row.position_b)
-    # a convex body holds what is in it at both ends all the way
+    # a point inside a convex body at the start and end of a translation is inside throughout
     times = (0.0,) if row.question == "overlap" else (0.0, 1.0)
     moved = [(_at(pose_a, row.displacement, t), _at(pose_b, row.displacement_b, t)) for t in times]
     return _within(a, b, moved) or _within(b, a, [pair[::-1] for pair in moved])
@@ -107,8 +107,8 @@ def _at(pose: Pose, displacement, t: float) -> Pose:
 
 
 def _within(inner: _Solid, outer: _Solid, poses: list[tuple[Pose, Pose]]) -> bool:
-    """Every vertex of the inner inside one piece of the outer at all these poses, and on one side
-    of each other piece's surface.
+    """Whether, at all these poses, every vertex of `inner` is inside one piece of `outer` and on
+    one side of the surface of each other piece.
     """
     if outer.row.kind == "mesh" or inner.radius > 2 * outer.radius:
         return False
@@ -117,8 +117,8 @@ def _within(inner: _Solid, outer: _Solid, poses: list[tuple[Pose, Pose]]) -> boo
         + inner.radius
         + outer.radius
     )
-    # The points of both ends at once: a point on the way is on the side of a plane on which it is
-    # at both ends, so that one plane has to hold for all of them.
+    # The points at start and end together: a point that is on one side of a plane at both is on
+    # that side throughout, so a single plane must hold for all of them.
     points = np.concatenate(
         [(inner.vertices @ p.rotation.T + (p.position - q.position)) @ q.rotation for p, q in poses]
     )
@@ -129,12 +129,12 @@ def _within(inner: _Solid, outer: _Solid, poses: list[tuple[Pose, Pose]]) -> boo
 
 
 def _side(points: np.ndarray, reach: float, piece) -> str:
-    """ "inside" the piece, "outside" one of its planes, or "" where neither is sure."""
+    """ "inside" the piece, "outside" one of its planes, or "" if neither is certain."""
     normals, on, edges = piece
     least = DEPTH * edges * reach
     offsets = np.einsum("ij,ij->i", normals, on)
     outside = normals @ points[0] - offsets > least
-    if outside.any():  # then it is not inside, and only these planes can have all points outside
+    if outside.any():  # not inside; only these planes can have all points on their outer side
         heights = points @ normals[outside].T - offsets[outside]
         return "outside" if np.any(np.all(heights > least[outside], axis=0)) else ""
     return "inside" if np.all(points @ normals.T - offsets < -least) else ""

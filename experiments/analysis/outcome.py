@@ -1,6 +1,4 @@
-"""What came of each answer, against the certified label of its case and never against another
-method.
-"""
+"""Judge each answer by the certified label of its case, never by another method."""
 
 from __future__ import annotations
 
@@ -16,7 +14,7 @@ from experiments.run.timing import situation_of
 
 from . import nesting
 
-JUDGED = ("right", "miss", "false alarm")  # of which rates are made
+JUDGED = ("right", "miss", "false alarm")  # the outcomes that enter rates
 FILE = "outcomes.parquet"
 KEPT = (
     "case",
@@ -45,29 +43,29 @@ KEPT = (
 
 
 def outcomes(store: Store, by_pieces: bool = True, nested: bool = True) -> pd.DataFrame:
-    """One row per case and method: the observation, the truth, and what came of it.
+    """One row per case and method: the observation, the truth and the outcome.
 
     outcome: "right"; "miss" (certified hit, answered clear); "false alarm" (certified clear,
-    answered hit); "contained" (a test of surfaces did not see a body that is inside the other,
-    whose surface it does not meet: in no rate); "touching" (the closed bodies share a point and no
-    more, where neither answer is wrong: in no rate); "no label" (truth uncertain); or the status
-    where it is not ok. wrong: a miss or a false alarm. tolerance: the distance that the method's
-    documentation allows at this case, length. within: wrong, at a clearance or a depth of
-    penetration within it. tunnelled: a miss of a sweep whose start and end are certified clear.
-    error: signed time of impact error, as a share of the step: beyond the certified bracket,
-    positive late, negative early, 0 inside; NaN where there is none. kind: of the bodies, "convex",
-    "union" or "mesh" if one of them is. truth: "pieces" where a method that decomposes was asked
-    about a mesh: label, bracket and gap are then those of the pieces, relative_gap and situation
-    stay the mesh's; else "mesh", and everywhere with by_pieces false. nested: whether to look who
-    is contained.
+    answered hit); "contained" (a test of surfaces missed a body inside the other whose surfaces do
+    not meet; in no rate); "touching" (the bodies share a boundary point but no interior point, so
+    neither answer is wrong; in no rate); "no label" (truth uncertain); or the status if it is not
+    ok. wrong: a miss or a false alarm. tolerance: the distance that the method's documentation
+    allows in this case, in units of length. within: wrong, and the clearance or penetration depth
+    is within the tolerance. tunnelled: a miss of a sweep whose start and end are certified clear.
+    error: signed error of the time of impact outside the certified bracket, as a share of the step:
+    positive if late, negative if early, 0 inside; NaN if there is none. kind: of the bodies,
+    "convex", "union", or "mesh" if one of them is. truth: "pieces" for a mesh query answered by a
+    method that decomposes, whose label, bracket and gap are then those of the pieces, while
+    relative_gap and situation remain those of the mesh; otherwise, and always if by_pieces is
+    False, "mesh". The argument `nested` states whether to look for contained bodies.
     """
     said, cases = store.read("observations.parquet"), store.read("cases.parquet")
     unknown = said.case[~said.case.isin(cases.case)]
     if len(unknown):
         raise StoreError(
             f"{store.folder / 'observations.parquet'} has answers to the case '{unknown.iloc[0]}',"
-            " which is not in cases.parquet. The run was changed or is damaged; take it anew from"
-            " where it was made, or make it again."
+            " which is not in cases.parquet. The run was changed or is damaged; copy it again from"
+            " its source, or repeat it."
         )
     return judge(
         said,
@@ -77,9 +75,7 @@ def outcomes(store: Store, by_pieces: bool = True, nested: bool = True) -> pd.Da
 
 
 def save(store: Store) -> None:
-    """Write the outcomes beside the rows of the run: what the tables count, for a merge of a
-    reader's own.
-    """
+    """Write the outcomes that the tables count to outcomes.parquet, for a reader's own analysis."""
     found = with_pieces(store, outcomes(store))
     store.write(found[[name for name in KEPT if name in found]], FILE)
 
@@ -87,8 +83,8 @@ def save(store: Store) -> None:
 def judge(
     observations: pd.DataFrame, cases: pd.DataFrame, pieces: pd.DataFrame | None = None
 ) -> pd.DataFrame:
-    """`outcomes` for rows of observations.parquet, of cases.parquet and of pieces.parquet; nobody
-    is contained where cases have no column `nested`.
+    """`outcomes` for rows of observations.parquet, cases.parquet and pieces.parquet. Without a
+    column `nested` in `cases`, no outcome is "contained".
     """
     cases = filled(cases)
     cases = cases.assign(
@@ -134,7 +130,7 @@ def judge(
 
 
 def with_pieces(store: Store, found: pd.DataFrame) -> pd.DataFrame:
-    """`outcomes`, and after them what the pieces say of the meshes, by the meshes' truth."""
+    """`outcomes`, followed by the certified answers of the pieces, judged by the meshes."""
     pieces = piece_truth.read(store)
     if pieces is None:
         return found
@@ -144,10 +140,11 @@ def with_pieces(store: Store, found: pd.DataFrame) -> pd.DataFrame:
 
 
 def _path(cases: pd.DataFrame) -> np.ndarray:
-    """(n,) upper bounds of how far a point of one body goes as the other sees it, length.
+    """(n,) upper bounds of the path length of a point of one body relative to the other, length.
 
-    Displacement, plus for each body its angle times how far a point of either body can lie from the
-    axis: the size, and the distance of the point `about` which it turns from the body's origin.
+    The relative displacement, plus, for each body, its angle times a bound on the distance of a
+    point of either body from the axis: the size plus the distance of the rotation centre `about`
+    from the body's origin.
     """
     if "displacement" not in cases:
         return np.zeros(len(cases))
@@ -160,7 +157,7 @@ def _path(cases: pd.DataFrame) -> np.ndarray:
 
 
 def _tolerances(table: pd.DataFrame, methods: dict[str, tuple[bool, Tolerance]]) -> pd.Series:
-    """Of each row: what the method declares for the side on which it can be wrong there."""
+    """The declared tolerance for the error possible in each row (miss or false alarm), length."""
     made, hits = np.zeros(len(table)), (table.label == "hit").to_numpy()
     for label, rows in table.groupby("method", sort=False).indices.items():
         _, declared = methods[label]
@@ -170,8 +167,8 @@ def _tolerances(table: pd.DataFrame, methods: dict[str, tuple[bool, Tolerance]])
 
 
 def _declared(labels) -> dict[str, tuple[bool, Tolerance]]:
-    """Whether each method tests solids, and its tolerance; of one whose file is not there any more,
-    (True, none).
+    """Whether each method tests solids, and its tolerance; (True, NONE) if the method's file is
+    missing.
     """
     return {
         label: (m.solid, m.tolerance) if (m := method_of(label)) else (True, NONE)
@@ -180,7 +177,7 @@ def _declared(labels) -> dict[str, tuple[bool, Tolerance]]:
 
 
 def method_of(label: str):
-    """The method of a label, or None where its file is not there any more."""
+    """The method of a label, or None if its file is missing."""
     try:
         return registry.make(label)[0]
     except (ValueError, ImportError):
@@ -188,6 +185,6 @@ def method_of(label: str):
 
 
 def out_of_their_depth(table: pd.DataFrame) -> set[str]:
-    """Labels of single-precision methods that answered cases given in double precision."""
+    """Labels of single-precision methods that answered cases stored in double precision."""
     asked = table[(table.precision == "float64") & (table.status == "ok")].method.unique()
     return {label for label in asked if (m := method_of(label)) and m.precision == "single"}

@@ -1,4 +1,4 @@
-"""Views of the outcomes: bands of the gap, the cases that all methods answer, and ranks on them."""
+"""Views of the outcomes: bands of the gap, the cases common to all methods, and ranks on them."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import pandas as pd
 
 from . import metrics
 
-BANDS = (1e-2, 1e-4, 1e-7)  # of |gap| / size, that tables are split by
-LEAST = 0.5  # share of the cases asked that a method answers, or it is left out of the common cases
+BANDS = (1e-2, 1e-4, 1e-7)  # bounds of |gap| / size by which tables are split
+LEAST = 0.5  # a method that answers a smaller share is left out of the common cases
 
 
 def gap_bands(relative_gap: pd.Series) -> tuple[pd.Series, list[str]]:
-    """The band of each signed relative gap, and the bands from deep to far."""
+    """The band of each signed relative gap, and the bands in order from deep to far."""
     edges = [-np.inf, *(-b for b in BANDS), 0.0, *reversed(BANDS), np.inf]
     bounds = [f"{e:.0e}".replace("e-0", "e-") if e else "0" for e in edges[1:-1]]
     names = [
@@ -24,8 +24,8 @@ def gap_bands(relative_gap: pd.Series) -> tuple[pd.Series, list[str]]:
 
 
 def closeness(relative_gap: pd.Series) -> tuple[pd.Series, list[str]]:
-    """The band of the size of each relative gap, clearance and depth alike, and the bands from far
-    to close.
+    """The band of the absolute value of each relative gap, and the bands in order from far to
+    close.
     """
     edges = [0.0, *reversed(BANDS), np.inf]
     bounds = [f"{b:.0e}".replace("e-0", "e-") for b in reversed(BANDS)]
@@ -41,10 +41,10 @@ def closeness(relative_gap: pd.Series) -> tuple[pd.Series, list[str]]:
 
 
 def common(found: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:
-    """The rows of one question about the cases that all methods answer, and the methods that are
-    left out.
+    """The rows of one question for the cases that all methods answered, and the methods left out.
 
-    Left out is who answers less than half of the cases: else nothing would be common.
+    A method that answers less than half of the cases is left out, since otherwise few cases would
+    be common.
     """
     answered = (found.status == "ok").groupby(found.method, sort=False).mean()
     left_out = list(answered.index[answered < LEAST])
@@ -54,15 +54,15 @@ def common(found: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:
 
 
 def ranked(counts: pd.DataFrame, by: list[str] = ()) -> pd.Series:
-    """The rank by wrong answers, 1 for the fewest; equal numbers share the least rank. Within each
-    group of `by`.
+    """The rank by number of wrong answers within each group of `by`, 1 for the fewest; methods with
+    equal numbers share the best of their ranks.
     """
     wrong = counts.groupby(by, sort=False).wrong if by else counts.wrong
     return wrong.rank(method="min").astype(int)
 
 
 def by_closeness(part: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:
-    """Counts and ranks of common cases per band of closeness."""
+    """Counts and ranks on common cases per band of |gap| / size."""
     bands, order = closeness(part.relative_gap)
     counts = metrics.rates(part.assign(band=bands).dropna(subset=["band"]), ["method", "band"])
     counts = counts[counts.judged > 0]
@@ -70,8 +70,8 @@ def by_closeness(part: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:
 
 
 def by_scenario(part: pd.DataFrame) -> pd.DataFrame:
-    """Per method the mean over scenarios of the share of wrong answers (each scenario weighs the
-    same), and the rank by it.
+    """Per method, the mean over scenarios of the share of wrong answers (each scenario has the same
+    weight), and the rank by it.
     """
     counts = metrics.rates(part, ["method", "scenario"])
     counts = counts[counts.judged > 0]

@@ -1,1 +1,1 @@
-"""The command line, and the order in which a run is made: `runner.py`."""
+"""The command line; `runner.py` runs the stages of a run in order."""

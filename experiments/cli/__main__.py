@@ -1,4 +1,4 @@
-"""python -m experiments.cli: the command line where ofg-bench is not on the path."""
+"""python -m experiments.cli: the command line if ofg-bench is not on the PATH."""
 
 from .app import main
 

@@ -22,9 +22,9 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="""Benchmark collision detection on cases whose true answers are certified.
 
-A run is one folder: `ofg-bench run quick` makes cases, certifies them, asks every method, takes
-times and prints the tables. `ofg-bench list` shows what there is. A configuration of your own
-starts from `ofg-bench preset quick > mine.toml`.""",
+A run is one folder. `ofg-bench run quick` generates cases, certifies them, runs every method on
+them, times the methods and prints the tables. `ofg-bench list` lists the scenarios, methods and
+experiments. To write your own configuration, start from `ofg-bench preset quick > mine.toml`.""",
 )
 
 
@@ -43,7 +43,7 @@ def options(
         ),
     ] = False,
 ) -> None:
-    """What stands before a command."""
+    """Options given before a command."""
 
 
 def _failed(text: str, code: int, word: str = "Error") -> int:
@@ -54,8 +54,8 @@ def _failed(text: str, code: int, word: str = "Error") -> int:
 
 
 def main() -> None:
-    """Entry point: errors are one paragraph and no traceback; exit code 2 for the user's, 1 for the
-    machine's.
+    """Entry point. An error is printed as one paragraph without a traceback. The exit code is 2 for
+    a user's error and 1 for a failure of the machine.
     """
     try:
         app()
@@ -68,13 +68,13 @@ def main() -> None:
         sys.exit(
             _failed(
                 f"{where}{error.strerror or error}. Make it readable and writable, or free some"
-                " space; what is finished is kept: say the same command again.",
+                " space, then run the same command again; finished work is kept.",
                 1 if error.errno in ERRNOS else 2,
             )
         )
     except KeyboardInterrupt:
         Console(stderr=True).print(
-            "\nInterrupted. What is finished is kept; say the same command again to go on."
+            "\nInterrupted. Finished work is kept; run the same command again to resume."
         )
         sys.exit(130)
 

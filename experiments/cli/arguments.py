@@ -1,4 +1,4 @@
-"""Arguments and options that several commands share."""
+"""Arguments and options shared by several commands."""
 
 from __future__ import annotations
 
@@ -10,31 +10,33 @@ import typer
 from baselines import registry
 from experiments.cases import families
 
-Run = Annotated[Path, typer.Argument(help="folder of a run")]
+Run = Annotated[Path, typer.Argument(metavar="RUN", help="folder of the run")]
 Workers = Annotated[
     int | None,
-    typer.Option(min=1, max=256, help="processes for all but the timing [default: one per core]"),
+    typer.Option(
+        min=1, max=256, help="processes for every stage except timing [default: one per core]"
+    ),
 ]
 SkipMissing = Annotated[
-    bool, typer.Option("--skip-missing", help="leave rows of engines that are not installed empty")
+    bool, typer.Option("--skip-missing", help="leave the rows of missing engines empty")
 ]
 Trust = Annotated[
     bool,
     typer.Option(
-        "--trust", help="run the Python files that the run names as its own methods and scenarios"
+        "--trust", help="execute the Python files of methods and scenarios that the run names"
     ),
 ]
 Methods = Annotated[
     list[Path] | None,
     typer.Option(
-        "--methods", help="Python file with methods of your own (METHODS = [...]); may be repeated"
+        "--methods", help="Python file with your own methods (METHODS = [...]); may be repeated"
     ),
 ]
 Scenarios = Annotated[
     list[Path] | None,
     typer.Option(
         "--scenarios",
-        help="Python file with scenarios of your own (SCENARIO = ...); may be repeated",
+        help="Python file with your own scenario (SCENARIO = ...); may be repeated",
     ),
 ]
 

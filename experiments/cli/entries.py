@@ -1,4 +1,4 @@
-"""The entries of a configuration: each is known, has values that it takes, and is named once."""
+"""Check that each entry of a configuration is known, has valid values and is named once."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from experiments.studies.stepping import experiment as stepping
 
 
 def check(config: RunConfig, where: str = "The configuration") -> None:
-    """ConfigError, which begins with `where` and names the entry, for what cannot be run.
+    """Raise ConfigError for an entry that cannot be run; the message begins with `where`.
 
-    No engine is imported, so that those that are not installed are checked as well; the
-    configuration's own files are.
+    Engines are not imported, so methods of engines that are not installed are checked as well. The
+    method and scenario files that the configuration names are imported.
     """
     try:
         load_files(config)
@@ -24,7 +24,7 @@ def check(config: RunConfig, where: str = "The configuration") -> None:
         tables.check(config)
         if config.stepping:
             stepping.check(config.stepping)
-    except (Exception, SystemExit) as error:  # of a reader's own file, whatever it is
+    except (Exception, SystemExit) as error:  # a user's own file may raise anything
         kind = "" if isinstance(error, ValueError) else f"{type(error).__name__}: "
         raise ConfigError(f"{where}: {kind}{error}") from error
 
@@ -37,19 +37,19 @@ def _check_methods(config: RunConfig) -> None:
             for label in _labels(spec, here):
                 if label in found:
                     raise ConfigError(
-                        f"{here} names '{label}', which {found[label]} names too; keep one of them."
+                        f"{here} names '{label}', as does {found[label]}; keep only one of them."
                     )
                 found[label] = here
     reference = config.timing.reference
     if reference and reference not in found:
         raise ConfigError(
-            f"timing.reference '{reference}' is no method of the run"
-            f"{closest(reference, found)}; it has {', '.join(found)}."
+            f"timing.reference '{reference}' is not a method of the run"
+            f"{closest(reference, found)}; the methods are {', '.join(found)}."
         )
 
 
 def _labels(spec: str, here: str) -> list[str]:
-    """The labels that a specification stands for, each once."""
+    """The labels of the methods that a specification creates; raises if one occurs twice."""
     try:
         labels = [method.label for method in registry.make(spec)]
     except Exception as error:
@@ -59,7 +59,7 @@ def _labels(spec: str, here: str) -> list[str]:
 
 
 def _check_scenarios(choices: tuple[ScenarioChoice, ...]) -> None:
-    """A scenario may be named again with other levels, say to draw fewer cases of the slow ones."""
+    """A scenario may be named twice with different levels, for example to draw fewer slow cases."""
     named: list[str] = []
     for i, choice in enumerate(choices):
         try:

@@ -1,5 +1,5 @@
-"""Runs of others are read as data: their own files are not run, and what is strange in them is said
-in a paragraph.
+"""Read a run from outside as data: its Python files are not executed, and a fault in it is reported
+in one paragraph.
 """
 
 from __future__ import annotations
@@ -17,7 +17,9 @@ from experiments.run.folder.store import Store, StoreError
 
 
 def opened(folder: Path, trust: bool) -> Store:
-    """A run to be read. Its own files are run with trust alone; what they declare was recorded."""
+    """Open a run. Its Python files are executed only with `trust`; otherwise the recorded
+    declarations of their methods and scenarios are used.
+    """
     store = Store(folder)
     if trust:
         config.load_files(store.config)
@@ -28,10 +30,10 @@ def opened(folder: Path, trust: bool) -> Store:
 
 @contextmanager
 def reading(*folders: Path) -> Iterator[None]:
-    """What a folder or a file from outside makes fail, however strange, is an error of one
-    paragraph and no traceback.
+    """Turn any exception caused by a folder or file from outside into an error of one paragraph.
 
-    A net: record.py and rows.py find what is wrong and name it, or that is a fault of theirs.
+    This is a safety net: record.py and rows.py should detect and name every fault, and an exception
+    that gets this far is a bug in them.
     """
     try:
         yield
@@ -40,7 +42,7 @@ def reading(*folders: Path) -> Iterator[None]:
     except Exception as error:
         names = " or ".join(map(str, folders))
         raise StoreError(
-            f"What {names} holds does not fit together ({type(error).__name__}:"
-            f" {given.reason(error)}). It was changed or is damaged; take it anew from where it was"
-            " made, or make it again."
+            f"The contents of {names} are inconsistent ({type(error).__name__}:"
+            f" {given.reason(error)}). The data was changed or is damaged; copy it again from its"
+            " source, or repeat the run."
         ) from error

@@ -1,5 +1,5 @@
-"""The main job: scenarios -> certified cases -> observations -> times -> tables and figures, in one
-folder.
+"""Run a configuration in one folder: scenarios -> certified cases -> observations -> times ->
+tables and figures.
 """
 
 from __future__ import annotations
@@ -28,45 +28,45 @@ from ofg import decomposition, piecefile
 
 from . import entries
 
-# One label, one process that imports an engine, one case asked of one method, one timed call: only
-# the plan that a run starts from.
+# Seconds per label, per process that imports an engine, per case and method, and per timed call.
+# They serve only as the first estimate of the time left.
 LABEL_SECONDS, PROCESS_SECONDS, ASK_SECONDS, CALL_SECONDS = 0.06, 0.5, 0.003, 0.0003
 
 
 def run(
     config: RunConfig, folder: Path, workers: int | None = None, skip_missing: bool = False
 ) -> list[tables.Table]:
-    """Run `config` in `folder`, or finish what was begun there; returns its tables. Raises
+    """Run `config` in `folder`, or resume an unfinished run there; returns its tables. Raises
     ConfigError or StoreError.
     """
     entries.check(config)
     absent = missing(config.methods)
     if absent and not skip_missing:
         raise ConfigError(
-            "An engine that this run asks for is not installed. "
+            "An engine that this run needs is not installed. "
             + " ".join(absent)
-            + " Or leave its rows empty with --skip-missing."
+            + " To leave its rows empty, use --skip-missing."
         )
     store = Store(folder)
     with store.held(config):
         if "finished" in facts(store):
             made = report(store)
             shutil.rmtree(store.folder / "parts", ignore_errors=True)
-            say(f"The run in {folder} is finished, nothing was run; its tables were made anew.")
+            say(f"The run in {folder} is already finished; only its tables were rebuilt.")
             return made
         begin(store, config)
         return finish(store, config, workers or os.cpu_count() or 1)
 
 
 def begin(store: Store, config: RunConfig) -> None:
-    """Say in manifest.json what the run is made with; what an unfinished run made with other code
-    is left behind by its key.
+    """Record code, versions and machine in manifest.json. Parts that an unfinished run made with
+    different code have a different key and are not used.
     """
     before, code = facts(store), origin.code()
     if before and before.get("code") != code:
         say(
-            f"The run in {store.folder} was begun with another state of the code; what it had"
-            " finished is made again."
+            f"The run in {store.folder} was started with a different version of the code; its"
+            " finished parts are computed again."
         )
     own = dict(
         zip(ownfile.copies(config), ownfile.digests(config.method_files + config.scenario_files))
@@ -87,7 +87,7 @@ def begin(store: Store, config: RunConfig) -> None:
 
 
 def finish(store: Store, config: RunConfig, workers: int) -> list[tables.Table]:
-    """Make what is not there yet, and the tables of it all."""
+    """Run the stages that are not finished yet, then build the tables."""
     if config.stepping:
         stepping.measure(store, config)
         more = {}
@@ -113,8 +113,8 @@ def finish(store: Store, config: RunConfig, workers: int) -> list[tables.Table]:
 
 
 def report(store: Store) -> list[tables.Table]:
-    """Write tables/, figures/ and report.html from the rows of the run (figures and report not of
-    the stepping track).
+    """Write tables/, figures/ and report.html from the rows of the run. A stepping run has no
+    figures and no report.
     """
     made = list(tables.build(store))
     tables.save(store, made)
@@ -128,8 +128,8 @@ def report(store: Store) -> list[tables.Table]:
 
 
 def plan(config: RunConfig, workers: int) -> dict[str, float]:
-    """Seconds that each stage will take, before anything is known: roughly what the experiments
-    took on one machine.
+    """First estimate of the seconds that each stage will take, from the times of the experiments on
+    one machine.
     """
     cases, methods = (
         len(labelling.slots(config)),
@@ -154,7 +154,7 @@ def plan(config: RunConfig, workers: int) -> dict[str, float]:
 
 
 class Paces:
-    """Tells the forecast, with each chunk of answers, what asking and timing will still take."""
+    """Update the forecast of the time left for answers and timing after each chunk of answers."""
 
     def __init__(self, store: Store, config: RunConfig, workers: int, forecast: progress.Forecast):
         self.config, self.workers, self.forecast, self.begun = config, workers, forecast, None
@@ -194,7 +194,7 @@ class Paces:
         self.paces[label] = pd.concat([self.paces[label], pace]) if label in self.paces else pace
         self.left[label] -= len(rows)
         known = {name: own.seconds.mean() for name, own in self.paces.items()}
-        # one slow method says nothing of those that have not answered yet
+        # the median, as one slow method is no guide to those that have not answered yet
         other = statistics.median(known.values())
         asking = sum(n * known.get(name, other) for name, n in self.left.items()) / self.workers
         self.forecast.foresee("ask methods", asking)
@@ -208,19 +208,19 @@ class Paces:
 
 
 def halfway(forecast: progress.Forecast) -> dict | None:
-    """For the manifest: what was said to be left in the middle of the run, and what was."""
+    """For the manifest: the forecast and the actual seconds left halfway through the run."""
     found = forecast.at_half()
     return found and {"said_left": round(found[0], 1), "was_left": round(found[1], 1)}
 
 
 def missing(specs: tuple[str, ...]) -> list[str]:
-    """One sentence per engine that is asked for and not installed. Raises for an unknown method."""
+    """One sentence per engine that is needed but not installed. Raises for an unknown method."""
     classes = {type(m) for spec in specs for m in registry.make(spec)}
     return sorted({reason for cls in classes if (reason := registry.available(cls))})
 
 
 def facts(store: Store) -> dict:
-    """What manifest.json holds."""
+    """The contents of manifest.json."""
     return store.facts
 
 

@@ -1,4 +1,4 @@
-"""What the commands print: tables that fit the terminal."""
+"""Print tables so that they fit the terminal."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from rich.table import Table as Grid
 
 from experiments.run.folder.given import markup
 
-console = Console(width=None if sys.stdout.isatty() else 160)  # nobody folds what goes into a file
+console = Console(width=None if sys.stdout.isatty() else 160)  # a file has no terminal width
 
 
 def print_table(table) -> None:
-    """A table of a run, without its optional columns where the terminal is too narrow for them."""
+    """Print a table of a run; optional columns are dropped if the terminal is too narrow."""
     text, optional = table.text, list(table.optional)
     while optional and _width(text) > console.width:
         text = text.drop(columns=optional.pop(0))
@@ -23,8 +23,8 @@ def print_table(table) -> None:
 
 
 def _strips(text) -> list[list[str]]:
-    """The columns in as many strips as it takes for each to fit the terminal; the first column is
-    in all of them.
+    """Split the columns into strips that each fit the terminal; every strip repeats the first
+    column.
     """
     first, *rest = text.columns
     strips = [[first]]
@@ -36,7 +36,7 @@ def _strips(text) -> list[list[str]]:
 
 
 def print_grid(title: str, columns, rows, caption: str = "") -> None:
-    """Columns of numbers are aligned to the right. The first column is never folded."""
+    """Print a grid. Columns of numbers are right-aligned; the first column is never wrapped."""
     console.print(f"[bold]{markup(title)}[/]", highlight=False)
     grid = Grid(box=None, pad_edge=False, header_style="bold")
     for i, column in enumerate(columns):

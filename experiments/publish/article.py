@@ -1,7 +1,7 @@
-"""Draws the figures of ofg/ARTICLE.md: python -m experiments.publish.article FOLDER
+"""Draw the figures of ofg/ARTICLE.md: python -m experiments.publish.article FOLDER
 
-What is coloured is what the core says or what the article's steps give for the case drawn, never a
-sketch.
+The coloured faces are computed for the case shown, by the core or by the article's steps; nothing
+is sketched by hand.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ A, B, CHOSEN_A, CHOSEN_B = "#9ecae1", "#fdd0a2", "#08519c", "#d94801"
 
 
 def case(scenario: str, level: float, **tags) -> Query:
-    """The first case of a family with these tags that keeps the axes of the world."""
+    """The first axis-aligned case of a family with these tags."""
     family = families.get(scenario)
     drawn = (family.case(2004, level, i) for i in range(100))
     wanted = {"aligned": "yes", **tags}
@@ -36,8 +36,8 @@ def case(scenario: str, level: float, **tags) -> Query:
 def scene(
     query: Query, width: float, title: str, place=(1, 1, 1), seen_from=(18, -60), aside=(0, 0, 0)
 ) -> plt.Axes:
-    """Axes about the middle of A's way, moved by `aside`, `width` to each side, seen from
-    (elevation, azimuth) in degrees.
+    """3D axes centred at the middle of A's path plus `aside`, extending `width` to each side, with
+    the view direction (elevation, azimuth) in degrees.
     """
     ax = plt.gcf().add_subplot(*place, projection="3d", proj_type="ortho", computed_zorder=False)
     ax.set_title(title, fontsize=9)
@@ -66,8 +66,8 @@ def whole(ax, body: Body, pose: Pose, colour: str, alpha: float, order: int) -> 
 
 
 def selections(path: Path) -> None:
-    """Steps 2 to 5: the k faces of each body, for two k; at the start of the turn, as the article
-    makes them.
+    """Steps 2 to 5: the k selected faces of each body for two values of k, at the start of the
+    rotation, as in the article.
     """
     query = case("article_table", 0.1)
     start = Query("overlap", query.a, query.b, query.pose_a, query.pose_b)
@@ -83,7 +83,7 @@ def selections(path: Path) -> None:
 
 
 def virtual_edges(path: Path) -> None:
-    """Moving objects, step 3: each selected vertex joined with its copy after the step."""
+    """Moving objects, step 3: each selected vertex joined to its copy after the step."""
     query = case("article_wall", 10.0, place="through")
     end = query.motion.pose_at(query.pose_a, 1.0)
     plt.figure(figsize=(4.2, 3.6))
@@ -99,12 +99,12 @@ def virtual_edges(path: Path) -> None:
 
 
 def pieces(path: Path) -> None:
-    """Concave objects: the pieces that the scheme picks, and those that meet."""
+    """Concave objects: the pieces that the scheme selects, and the pieces that collide."""
     query = case("article_pieces", -0.01)
     picked, meeting = ofg.ask(query, k=12).pieces, ofg.ask(query, k=12, repairs="all").pieces
     plt.figure(figsize=(7, 3.2))
     for i, (chosen, title) in enumerate(
-        ((picked, "the pieces that the scheme picks"), (meeting, "the pieces that meet"))
+        ((picked, "the pieces that the scheme selects"), (meeting, "the pieces that collide"))
     ):
         ax = scene(query, 2.0, title, (1, 2, i + 1), (65, -80), (0.9, 1.4, 0))
         for side, (body, pose, pale, dark) in enumerate(
@@ -135,5 +135,5 @@ def main(folder: str) -> None:
 
 if __name__ == "__main__":
     if len(sys.argv) != 2:
-        sys.exit("Say where to: python -m experiments.publish.article FOLDER")
+        sys.exit("Name the output folder: python -m experiments.publish.article FOLDER")
     main(sys.argv[1])

@@ -1,4 +1,4 @@
-"""Tables of a run in a Markdown page, between markers, so that no figure there is ever typed."""
+"""Insert the tables of a run into a Markdown page between markers, so that no figure is typed."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ MARK = re.compile(
 
 
 def fill(page: str, tables: Path) -> str:
-    """The page with what stands between `<!-- table NAME -->` and `<!-- end -->` replaced by
+    """The page with the text between `<!-- table NAME -->` and `<!-- end -->` replaced by
     tables/NAME.md.
 
-    `<!-- table NAME of RUN -->` takes it from the run folder RUN beside that of `tables`.
-    ValueError if the run has no table of that name.
+    `<!-- table NAME of RUN -->` takes the table from the run folder RUN next to that of `tables`.
+    Raises ValueError if the run has no table of that name.
     """
 
     def table(match: re.Match) -> str:
@@ -24,8 +24,8 @@ def fill(page: str, tables: Path) -> str:
         if not path.is_file():
             known = ", ".join(sorted(p.stem for p in folder.glob("*.md")))
             raise ValueError(
-                f"The page asks for the table '{match['name']}', which the run does not have. It"
-                f" has: {known}."
+                f"The page has a marker for the table '{match['name']}', which the run does not"
+                f" have. Its tables are: {known}."
             )
         return f"{match[1]}{path.read_text()}{match[4]}"
 

@@ -36,5 +36,5 @@ def _reason(rows: pd.DataFrame) -> str:
             .items()
         )
     )
-    share = "" if n == len(rows) else f"in {n} of them "
-    return given.clipped(f"{share}{status}: {given.printable(detail)}".rstrip(": "))
+    share = "" if n == len(rows) else f" in {n} of them"
+    return given.clipped(f"{status}{share}: {given.printable(detail)}".rstrip(": "))

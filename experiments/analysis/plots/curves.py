@@ -1,5 +1,5 @@
-"""The figure of a table along an axis: its rates or times from level to level, a panel per engine,
-OFG in each to compare with.
+"""Draw a table along an axis: rates or times by level, with a panel per engine and OFG in each for
+comparison.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from experiments.run.folder.store import Store
 
 from .figures import COLOURS, GRAIN, MARKERS, drawn
 
-LEAST = 3  # levels without which there is no curve
-PER_PANEL = 6  # curves; more of one engine go on in a further panel
-# None: what the scenarios call it
+LEAST = 3  # a curve needs at least so many levels
+PER_PANEL = 6  # curves per panel; further curves of an engine get another panel
+# None: the scenarios name the axis
 AXES = {
     "level": None,
     "band": "signed gap over size",
@@ -33,13 +33,13 @@ AXES = {
 VALUES = {
     "net time": ("median", "net time per query, µs", 1e-3),
     "gross time": ("median", "gross time per query, µs", 1e-3),
-    "build time": ("median", "building, µs", 1e-3),
-    "ratio": ("ratio", "net time over the reference's", 1.0),
+    "build time": ("median", "build time per query, µs", 1e-3),
+    "ratio": ("ratio", "ratio of net time to the reference's", 1.0),
 }
 
 
 def save(store: Store, tables: list[Table]) -> None:
-    """figures/NAME.svg and .png of every table that runs along an axis."""
+    """Write figures/NAME.svg and .png for every table along an axis."""
     known = families.scenarios()
     for table in filter(drawable, tables):
         names = table.choice.scenarios or [c.name for c in store.config.scenarios]
@@ -64,8 +64,8 @@ def drawable(table: Table) -> bool:
 
 
 def series(table: Table) -> pd.DataFrame:
-    """A row per method and level: x (its place among the levels), y, low, high. Rates are in
-    percent; no row where nothing was asked.
+    """A row per method and level: x (index of the level), y, low, high. Rates are in percent;
+    levels whose total is 0 have no row.
     """
     value, numbers = table.choice.value, table.numbers
     place = {name: i for i, name in enumerate(table.text.columns[1:])}
@@ -93,7 +93,7 @@ def series(table: Table) -> pd.DataFrame:
 
 
 def panels(methods: list[str]) -> list[tuple[str, list[str]]]:
-    """Engine and at most PER_PANEL of its methods, in the order of the table."""
+    """Pairs of an engine and at most PER_PANEL of its methods, in the order of the table."""
     known, own = registry.methods(), {}
     for label in methods:
         name = name_of(label)
@@ -142,7 +142,7 @@ def draw(table: Table, axis_name: str) -> plt.Figure:
         _lines(axis, points, methods)
     for axis in axes.flat[len(groups) :]:
         axis.set_visible(False)
-    for i in range(len(groups) - columns, len(groups)):  # the lowest of each column
+    for i in range(len(groups) - columns, len(groups)):  # the lowest panel of each column
         axes.flat[i].tick_params(labelbottom=True)
     figure.supylabel(
         (
@@ -154,7 +154,7 @@ def draw(table: Table, axis_name: str) -> plt.Figure:
     )
     figure.supxlabel(axis_name + (f"   (dashed: {reference})" if reference else ""), fontsize=8)
     figure.suptitle(table.title, fontsize=10)
-    figure.canvas.draw()  # places the axes, so that labels can be put apart
+    figure.canvas.draw()  # places the axes, which the labels need
     for axis, (_, methods) in zip(axes.flat, groups):
         _labels(axis, points, methods)
     return figure
@@ -178,7 +178,7 @@ def _lines(axis, points: pd.DataFrame, methods: list[str]) -> None:
 
 
 def _labels(axis, points: pd.DataFrame, methods: list[str]) -> None:
-    """Each curve is named at its right end; names that would touch are moved apart."""
+    """Write the name of each curve at its right end; names that would overlap are moved apart."""
     ends = [(m, points[points.method == m].iloc[-1]) for m in methods]
     heights = [
         axis.transAxes.inverted().transform(axis.transData.transform((end.x, max(end.y, 1e-300))))[
@@ -200,8 +200,8 @@ def _labels(axis, points: pd.DataFrame, methods: list[str]) -> None:
 
 
 def apart(heights: list[float], gap: float) -> list[float]:
-    """The heights moved as little as it takes to be `gap` apart, in their order, within [0, 1] as
-    long as they fit there.
+    """The heights, moved apart so that neighbours differ by at least `gap` and keep their order,
+    within [0, 1] if they fit.
     """
     order = np.argsort(heights, kind="stable")
     placed = np.clip(np.asarray(heights, float)[order], 0, 1)

@@ -1,5 +1,5 @@
-"""The accuracy-versus-speed figure: wrong answers against net time, a curve per method, the Pareto
-front marked.
+"""The accuracy-speed figure: wrong answers versus net time, with a curve per method and the Pareto
+front.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from experiments.analysis import costs, metrics, outcome, views
 from experiments.run.folder.store import Store
 from experiments.run.timing import SITUATIONS, SIZES, size_of
 
-# Okabe and Ito's palette and three of Paul Tol's, one for each engine there is, told apart by every
-# common colour vision; markers repeat the distinction in grey print.
+# The palette of Okabe and Ito and three colours of Paul Tol, one per engine, which remain distinct
+# under the common colour vision deficiencies; markers repeat the distinction in grey print.
 COLOURS = (
     "#0072B2",
     "#D55E00",
@@ -36,12 +36,12 @@ COLOURS = (
     "#DDCC77",
 )
 MARKERS = "osD^vP*Xh<>p"
-GRAIN = 50.0  # ns: net times below what the clock can tell are drawn there
-LEAST = 20  # certified cases without which a panel says nothing
+GRAIN = 50.0  # ns: shorter net times are below the clock's resolution and are drawn at this value
+LEAST = 20  # a panel needs at least so many certified cases
 
 
 def accuracy_speed(store: Store) -> None:
-    """One figure per question, panels by range of faces and situation, as SVG and PNG in
+    """Write one figure per question, with panels by range of faces and situation, as SVG and PNG to
     figures/.
     """
     points = joined(store)
@@ -55,7 +55,7 @@ def accuracy_speed(store: Store) -> None:
 
 
 def drawn(figure: plt.Figure, suffix: str) -> bytes:
-    """The file of a figure, "svg" or "png", for a store to write as it writes all else."""
+    """The content of a figure's file; suffix: "svg" or "png"."""
     content = io.BytesIO()
     figure.savefig(
         content,
@@ -68,12 +68,12 @@ def drawn(figure: plt.Figure, suffix: str) -> bytes:
 
 
 def joined(store: Store) -> pd.DataFrame:
-    """A row per question, range of faces, situation and method: net time (us), wrong rate with its
-    interval, whether on the front.
+    """A row per question, range of faces, situation and method: net time (us), rate of wrong
+    answers with its interval, and whether the method is on the Pareto front.
 
-    Rates are over the cases of a question and range of faces that all methods answered which answer
-    at least half (shared); those of other methods are over what they answered, and they are on no
-    front.
+    Rates are over the common cases of a question and range of faces (shared). The rate of a method
+    that answers less than half of the cases is over the cases that it answered (not shared); such
+    a method is not on the front.
     """
     found = outcome.outcomes(store)
     found = found.assign(faces=size_of(found.faces))
@@ -112,14 +112,14 @@ def _rates(part: pd.DataFrame) -> pd.DataFrame:
 
 
 def pareto(cost: pd.Series, loss: pd.Series) -> list:
-    """Index labels of the points that no other beats in both."""
+    """Index labels of the points that no other point dominates."""
     order = pd.DataFrame({"cost": cost, "loss": loss}).sort_values(["cost", "loss"])
     best_before = order.loss.cummin().shift(fill_value=np.inf)
     return list(order.index[order.loss < best_before])
 
 
 def draw(part: pd.DataFrame, question: str) -> plt.Figure:
-    """Columns of panels by faces, rows by situation."""
+    """Draw panels: a column per range of faces, a row per situation."""
     sizes = [name for _, name in SIZES if name in set(part.faces)]
     rows = [name for name in SITUATIONS if name in set(part.situation)]
     figure, axes = plt.subplots(
@@ -149,7 +149,7 @@ def draw(part: pd.DataFrame, question: str) -> plt.Figure:
         for name, (c, m) in styles.items()
     ]
     handles.append(
-        plt.Line2D([], [], color="0.4", lw=4, alpha=0.35, label="Pareto front, on common cases")
+        plt.Line2D([], [], color="0.4", lw=4, alpha=0.35, label="Pareto front on common cases")
     )
     handles.append(
         plt.Line2D(
@@ -160,11 +160,11 @@ def draw(part: pd.DataFrame, question: str) -> plt.Figure:
             mfc="white",
             ls="",
             ms=5,
-            label="hollow: answers less than half,\nrate over what it answers",
+            label="hollow: answers less than half\nof the cases; rate over those",
         )
     )
     figure.legend(handles=handles, loc="outside right upper", fontsize=7, frameon=False)
-    figure.suptitle(f"Accuracy against speed: {question}, by situation", fontsize=10)
+    figure.suptitle(f"Accuracy versus speed: {question}, by situation", fontsize=10)
     return figure
 
 
@@ -208,7 +208,7 @@ def _panel(axis, part: pd.DataFrame, styles) -> None:
         )
         for row in group.itertuples():
             if len(group) > 1 and row.Index in (group.index[0], group.index[-1]):
-                # many share the line of 0
+                # many points have rate 0
                 place = (
                     {"xytext": (3, 3)}
                     if row.rate
@@ -242,7 +242,7 @@ def _styles(methods) -> dict[str, tuple[str, str]]:
     for name in dict.fromkeys(map(curve_of, methods)):
         engine = known[name_of(name)].engine if name_of(name) in known else name
         colour, count = seen.get(engine, (COLOURS[len(seen) % len(COLOURS)], 0))
-        # an engine with more curves than markers goes on in colours that other engines leave
+        # if an engine has more curves than markers, further curves use unused colours
         more = count // len(MARKERS)
         styles[name] = (COLOURS[-more] if more else colour, MARKERS[count % len(MARKERS)])
         seen[engine] = (colour, count + 1)

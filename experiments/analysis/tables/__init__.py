@@ -1,6 +1,7 @@
-"""The tables of a run: accuracy first, then time.
+"""The tables of a run: first accuracy, then time.
 
-Each table is a frame of numbers (CSV) and a frame of text (terminal, Markdown, LaTeX).
+Each table has a frame of numbers (CSV) and a frame of text (terminal, Markdown, LaTeX).
+experiments/GLOSSARY.md defines the column heads.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ __all__ = ["Table", "build", "check", "save", "texts"]
 
 
 def build(store: Store) -> Iterator[Table]:
-    """Every table of the run that has rows, in reading order: first those that its configuration
-    asks for.
+    """Every table of the run that has rows, in reading order; the tables that its configuration
+    defines come first.
     """
     if store.config.stepping:
         yield from stepping_tables(store)
@@ -49,7 +50,7 @@ def build(store: Store) -> Iterator[Table]:
 
 
 def general(store: Store, found: pd.DataFrame, both: pd.DataFrame) -> Iterator[Table]:
-    """The tables that every run has. both: found, and the pieces' own error."""
+    """The tables that every run has. both: `found` with the rows of the CoACD pieces."""
     makers = [truth_table(store), method_table(store, found), *accuracy.leaderboards(found)]
     for question in found.question.unique():
         part = found[(found.question == question) & (found.detail != f"does not answer {question}")]
@@ -71,8 +72,8 @@ def general(store: Store, found: pd.DataFrame, both: pd.DataFrame) -> Iterator[T
 
 
 def save(store: Store, tables: list[Table]) -> None:
-    """Write each table as CSV, Markdown and LaTeX; files of tables that are not made any more go.
-    Outside: see `inside`.
+    """Write each table as CSV, Markdown and LaTeX, and remove files of tables that no longer exist.
+    Nothing is written outside the run's folder: see `inside`.
     """
     for table in tables:
         inside(store.folder, "tables", f"{table.name}.csv")

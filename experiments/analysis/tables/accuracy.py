@@ -1,4 +1,4 @@
-"""The tables of accuracy: what each method answered, and how often it was wrong, in two views."""
+"""The tables of accuracy, in two views: all cases that a method answered, and common cases."""
 
 from __future__ import annotations
 
@@ -10,23 +10,20 @@ from ofg import QUESTIONS
 
 from .table import MARK, Table, fraction, interval, marked, of, pivot, share
 
-BEYOND = (
-    "Beyond: wrong by more than the tolerance that the method's documentation states (table"
-    " methods)."
-)
+BEYOND = "Beyond: wrong answers outside the method's documented tolerance (table methods)."
 CONTAINED = (
-    "Contained: hits of a body inside another, whose surfaces do not meet; no test of surfaces can"
-    " see them, and they are in no rate."
+    "Contained: hits of a body inside another whose surfaces do not meet; a test of surfaces cannot"
+    " detect them, and they enter no rate."
 )
 OWN = (
-    "Each method over the certified cases that it answered, 95 % Wilson intervals in percent: who"
-    " answers fewer had fewer chances to be wrong."
+    "Each method is judged on the certified cases that it answered, so the methods' cases differ."
+    " 95 %: Wilson interval of the rate, in percent."
 )
 
 
 def leaderboards(found: pd.DataFrame) -> list[Table]:
-    """All questions at once, least share of wrong answers first; none where there is one
-    question.
+    """The table of all questions, lowest share of wrong answers first; no table for a run with a
+    single question.
     """
     if found.question.nunique() < 2:
         return []
@@ -73,8 +70,8 @@ def leaderboards(found: pd.DataFrame) -> list[Table]:
         ]
     ]
     caption = _caption(
-        f"Least share of wrong answers first. {OWN} The tables common-* compare all methods over"
-        " the same cases.",
+        f"Lowest share of wrong answers first. {OWN} The tables common-* compare all methods on the"
+        " same cases.",
         counts,
         single,
     )
@@ -113,7 +110,7 @@ def accuracy_table(part: pd.DataFrame, question: str) -> Table:
     if counts.contained.any():
         text["contained"] = counts.contained.astype(str)
     tunnelling = (
-        " Tunnelled: misses of sweeps whose start and end are both clear."
+        " Tunnelled: misses of hit sweeps that start and end clear."
         if question != "overlap"
         else ""
     )
@@ -129,7 +126,7 @@ def accuracy_table(part: pd.DataFrame, question: str) -> Table:
 
 
 def common_table(part: pd.DataFrame, question: str) -> Table:
-    """The same methods over the same cases, fewest wrong answers first."""
+    """Methods compared on the same cases, fewest wrong answers first."""
     same, left_out = views.common(part)
     counts = metrics.rates(same, ["method"])
     counts = (
@@ -152,8 +149,9 @@ def common_table(part: pd.DataFrame, question: str) -> Table:
     if len(counts) and counts.contained.any():
         text["contained"] = counts.contained.astype(str)
     caption = (
-        f"The {same.case.nunique()} of {part.case.nunique()} cases that all these methods answered,"
-        f" fewest wrong first; equal numbers share a rank. {_left_out(left_out)}"
+        f"The {same.case.nunique()} of {part.case.nunique()} cases that all these methods answered;"
+        " fewest wrong answers first, and methods with equal numbers share a rank."
+        f" {_left_out(left_out)}"
     )
     return Table(
         f"common-{question}",
@@ -167,8 +165,8 @@ def common_table(part: pd.DataFrame, question: str) -> Table:
 
 
 def rank_table(part: pd.DataFrame, question: str) -> Table:
-    """The rank on common cases, by how close the bodies come, and with each scenario of the same
-    weight.
+    """The rank on common cases, by band of |gap| / size, and with the same weight for each
+    scenario.
     """
     same, _ = views.common(part)
     if same.empty:
@@ -203,10 +201,10 @@ def rank_table(part: pd.DataFrame, question: str) -> Table:
     sizes = counts.groupby("band").judged.max()
     n = same.scenario.nunique()
     caption = (
-        f"Rank, and wrong answers in brackets, on the cases of the table common-{question}, by"
-        " clearance or depth over size"
+        f"Rank (number of wrong answers) on the cases of the table common-{question}, by"
+        " clearance or penetration depth over size"
         f" ({', '.join(f'{band}: {sizes[band]} cases' for band in order if band in sizes)}). By"
-        f" scenario: the mean of the shares of wrong answers of the {n} scenarios, which each weigh"
+        f" scenario: rank by the mean share of wrong answers over the {n} scenarios, each of weight"
         f" 1/{n}."
     )
     return Table(f"ranks-{question}", f"Ranks, {question}.", caption, numbers, text.astype(str))
@@ -217,8 +215,8 @@ def scenario_table(part: pd.DataFrame, question: str) -> Table:
     return Table(
         f"scenarios-{question}",
         f"Wrong answers by scenario, {question}.",
-        "Misses and false alarms of the certified cases answered; - where "
-        f"a method answered none.{piece_truth.note(part)}",
+        "Misses and false alarms of the certified cases answered; - if the method answered none."
+        f"{piece_truth.note(part)}",
         counts[
             [
                 "method",
@@ -241,7 +239,8 @@ def gap_table(part: pd.DataFrame) -> Table:
     return Table(
         "gap-overlap",
         "Wrong answers by signed gap over size, overlap.",
-        "Left of 0 the bodies overlap (misses), right of it they are apart (false alarms).",
+        "Columns left of 0 count misses (overlapping bodies), columns right of 0 count false alarms"
+        " (separated bodies).",
         counts[
             ["method", "band", "misses", "false_alarms", "beyond", "contained", "hits", "clears"]
         ],
@@ -257,8 +256,8 @@ def _there(text: pd.DataFrame, *names: str) -> tuple[str, ...]:
 def _caption(text: str, counts: pd.DataFrame, single: set[str]) -> str:
     contained = f" {CONTAINED}" if len(counts) and counts.contained.any() else ""
     mark = (
-        f" {MARK.strip()}: computes or holds bodies in single precision, and was asked cases whose"
-        " numbers are not rounded to it."
+        f" {MARK.strip()}: the method computes or stores bodies in single precision, and some cases"
+        " that it answered are not rounded to it."
         if single
         else ""
     )
@@ -266,4 +265,6 @@ def _caption(text: str, counts: pd.DataFrame, single: set[str]) -> str:
 
 
 def _left_out(methods: list[str]) -> str:
-    return f"Left out, as they answered less than half: {', '.join(methods)}." if methods else ""
+    if not methods:
+        return ""
+    return f"Methods that answered less than half of the cases are omitted: {', '.join(methods)}."

@@ -1,4 +1,4 @@
-"""Tables that a configuration asks for: a row per method, a column per level, scenario or tag."""
+"""Tables defined by a configuration: a row per method, a column per level, scenario or tag."""
 
 from __future__ import annotations
 
@@ -20,13 +20,18 @@ from .cost import IN_NOISE, microseconds, reference_of, state_of
 from .table import Table, of, pivot
 
 COLUMNS = ("level", "scenario", "question", "situation", "faces", "band")
-COUNTS = {  # value of a table -> columns of metrics.rates, name of its interval, and what it says
-    "misses": ("misses", "hits", "miss", "Certified hits answered clear, of those answered."),
+COUNTS = {  # value of a table -> two columns of metrics.rates, name of the interval, caption
+    "misses": (
+        "misses",
+        "hits",
+        "miss",
+        "Misses (certified hits answered clear), of the certified hits answered.",
+    ),
     "false alarms": (
         "false_alarms",
         "clears",
         "alarm",
-        "Certified clears answered hit, of those answered.",
+        "False alarms (certified clear cases answered hit), of the certified clear cases answered.",
     ),
     "wrong": (
         "wrong",
@@ -39,7 +44,7 @@ COUNTS = {  # value of a table -> columns of metrics.rates, name of its interval
         "judged",
         "beyond",
         (
-            "Wrong by more than the method's own documented tolerance, of the certified cases"
+            "Wrong answers outside the method's own documented tolerance, of the certified cases"
             " answered."
         ),
     ),
@@ -47,24 +52,24 @@ COUNTS = {  # value of a table -> columns of metrics.rates, name of its interval
         "tunnelled",
         "can_tunnel",
         "tunnel",
-        "Misses, of the certified hits answered whose start and end are both clear.",
+        "Misses of hit sweeps that start and end clear, of all such sweeps answered.",
     ),
-    "answered": ("answered", "asked", "answered", "Cases answered, of those asked."),
+    "answered": ("answered", "asked", "answered", "Cases answered, of all cases."),
 }
-WITH_PIECES = COUNTS.keys() - {"answered"}  # values that the pieces' own error has
+WITH_PIECES = COUNTS.keys() - {"answered"}  # values that exist for the CoACD pieces
 CLOCKED = ("net time", "gross time", "build time", "ratio")
 
 
 def check(config: RunConfig) -> None:
-    """ConfigError for a table that names what the run does not have."""
+    """Raise ConfigError for a table that names something the run does not have."""
     known = {c.name: families.get(c.name) for c in config.scenarios}
     for choice in config.tables:
         where = f"The table '{choice.name}'"
         for name in choice.scenarios:
             if name not in known:
                 raise ConfigError(
-                    f"{where}: its scenario '{name}' is not one of the run{closest(name, known)};"
-                    f" the run has {', '.join(known)}."
+                    f"{where}: the scenario '{name}' is not in the run{closest(name, known)};"
+                    f" its scenarios are {', '.join(known)}."
                 )
         if choice.question not in ("", *QUESTIONS):
             raise ConfigError(
@@ -73,7 +78,7 @@ def check(config: RunConfig) -> None:
             )
         if choice.value in CLOCKED and not config.timing.cases:
             raise ConfigError(
-                f"{where}: '{choice.value}' needs times; set timing.cases to more than 0."
+                f"{where}: '{choice.value}' needs times; set timing.cases to a number above 0."
             )
         tags = {
             t
@@ -82,14 +87,14 @@ def check(config: RunConfig) -> None:
         }
         if choice.columns not in (*COLUMNS, *tags):
             raise ConfigError(
-                f"{where}: columns = '{choice.columns}' is neither one of {', '.join(COLUMNS)} nor"
-                f" a tag of its scenarios ({', '.join(sorted(tags)) or 'which have none'})."
+                f"{where}: columns = '{choice.columns}' is not valid. Use {', '.join(COLUMNS)} or a"
+                f" tag of its scenarios ({', '.join(sorted(tags)) or 'they have none'})."
             )
 
 
 def chosen_tables(store: Store, found: pd.DataFrame, choice: TableChoice) -> Iterator[Table]:
-    """A table that the configuration asks for; of times one for each situation, since what a query
-    costs hangs on it.
+    """A table that the configuration defines. A table of times is split by situation, on which the
+    query time depends.
     """
     if choice.value not in CLOCKED or choice.situation or choice.columns == "situation":
         yield chosen_table(store, found, choice)
@@ -198,25 +203,25 @@ def _clocked(store: Store, part: pd.DataFrame, value: str):
     if value == "ratio":
         reference = reference_of(store.config)
         note = (
-            f"Net time over that of {reference}: median of the ratios case by case, 95 % bootstrap "
-            f"interval. Above 1: slower. {IN_NOISE} {state}"
+            f"Ratio of net time to that of {reference}: median of the case-by-case ratios, with its"
+            f" 95 % bootstrap interval. Above 1: slower. {IN_NOISE} {state}"
         )
         found = costs.ratios(times, reference, ["column"]).dropna(subset=["ratio"])
         return found, lambda r: f"{r.ratio:.2g} [{r.low:.2g}, {r.high:.2g}]", note
     column, what = {
         "net time": (
             "net",
-            "Microseconds per query from Python, less the method's floor; medians over cases",
+            "Microseconds per query from Python, less the method's floor (median over cases)",
         ),
         "gross time": (
             "ns",
-            "Microseconds per query from Python, floor included; medians over cases",
+            "Microseconds per query from Python, including the floor (median over cases)",
         ),
         "build time": (
             "build_ns",
             (
-                "Microseconds to build for a query (a body that was built before is mostly kept);"
-                " medians over cases"
+                "Microseconds to prepare a query (median over cases; most methods keep a body that"
+                " was built before)"
             ),
         ),
     }[value]
@@ -231,8 +236,8 @@ def _off(part: pd.DataFrame, value: str):
     if value == "time error":
         sized = part[part.error.notna()].assign(size_of_error=lambda t: t.error.abs())
         note = (
-            "Beyond the certified bracket, as a share of the step, where both say hit; 95 %"
-            " bootstrap intervals in the CSV."
+            "Median error of the time of impact outside the certified bracket, as a share of the"
+            " step, for correctly reported hits; 95 % bootstrap intervals in the CSV."
         )
         return (
             costs.medians(sized, "size_of_error", ["method", "column"]),
@@ -244,5 +249,6 @@ def _off(part: pd.DataFrame, value: str):
     return (
         errors,
         lambda r: f"{getattr(r, worst):.1e}" if getattr(r, worst) else "0",
-        "Worst error beyond the certified bracket, as a share of the step, where both say hit.",
+        f"Largest {'late' if value == 'latest' else 'early'} error of the time of impact outside"
+        " the certified bracket, as a share of the step, for correctly reported hits.",
     )

@@ -1,4 +1,4 @@
-"""Tables of what a query costs, from Python."""
+"""Tables of the query time from Python."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from experiments.run.timing import SIZES
 from .table import Table
 
 IN_NOISE = (
-    "No ratio (-) where the reference's net time lies within the noise of its floor, the "
-    "interquartile range of the floor's rounds, in half of the cases or more; such cases "
-    "are left out elsewhere."
+    "Cases whose reference net time lies within the noise of its floor (the interquartile range of "
+    "the floor's rounds) are left out; if they are half of the cases or more, there is no ratio "
+    "(-)."
 )
 
 
 def cost_tables(store: Store) -> Iterator[Table]:
     state = state_of(store)
     note = (
-        "Microseconds per query from Python: net (gross). Net is gross less the method's floor,"
-        " its own call on two tetrahedra far apart. Columns: faces of the larger body. Medians"
-        f" over cases of medians over rounds; poses differ from call to call. {state}"
+        "Microseconds per query from Python, net (gross), by faces of the larger body: median over"
+        " cases of the median over rounds, with a new pose for each call. Net is gross less the"
+        f" method's floor, its time for two tetrahedra far apart. {state}"
     )
     for (question, situation), part in costs.costs(store).groupby(
         ["question", "situation"], sort=False
@@ -45,9 +45,9 @@ def cost_tables(store: Store) -> Iterator[Table]:
     ):
         yield Table(
             f"ratio-{question}-{situation}",
-            f"Net time over that of {reference}, {question}, {situation}.",
-            "Median of the ratios case by case on the cases both "
-            f"answered, 95 % bootstrap interval. Above 1: slower. {IN_NOISE} {state}",
+            f"Ratio of net time to that of {reference}, {question}, {situation}.",
+            "Median of the case-by-case ratios on the cases that both answered, with its 95 %"
+            f" bootstrap interval. Above 1: slower. {IN_NOISE} {state}",
             part,
             _by_faces(part, lambda r: f"{r.ratio:.2g} [{r.low:.2g}, {r.high:.2g}]"),
         )
@@ -63,14 +63,14 @@ def reference_of(config: RunConfig) -> str:
 
 
 def state_of(store: Store) -> str:
-    """What to know of the state that the times were taken in."""
+    """A sentence on the noise of the machine during timing, and the lost timings if any."""
     noise = costs.noise(store)
     state = f"Noise probe: 90th percentile {100 * noise:.0f} % above its median" + (
         ": THIS RUN WAS DISTURBED." if noise > 0.25 else "."
     )
     lost = costs.lost(store)
     return (
-        f"{state} Without times, because the process died or hung: {'; '.join(lost)}."
+        f"{state} Not timed, because the process died or hung: {'; '.join(lost)}."
         if lost
         else state
     )

@@ -1,4 +1,4 @@
-"""Tables of the cases: their certified labels, and what methods answer where bodies touch."""
+"""Tables of the cases: their certified labels, and the answers where bodies only touch."""
 
 from __future__ import annotations
 
@@ -32,17 +32,18 @@ def truth_table(store: Store) -> Table:
             }
         )
     frame = pd.DataFrame(rows)
-    text, touching = frame.astype(str), ""
+    text = frame.astype(str).rename(columns={"drawn again": "redrawn"})
+    touching = ""
     if frame.touching.any():
         touching = (
-            "Touching ones, which share a boundary point without overlapping, count as clear here,"
-            " and are in no rate. "
+            "Touching cases share a boundary point without overlapping; they count as clear here"
+            " and enter no rate. "
         )
     else:
         text = text.drop(columns="touching")
     caption = (
-        f"Uncertain cases are in no rate. {touching}'Drawn again': draws thrown away because the"
-        " step began in overlap. Precision: float32 where all numbers of a case are rounded to it."
+        f"Uncertain cases enter no rate. {touching}Redrawn: draws rejected because the step started"
+        " in overlap. Precision: float32 if every number of a case is rounded to it."
     )
     return Table(
         "truth",
@@ -51,14 +52,12 @@ def truth_table(store: Store) -> Table:
         frame,
         text,
         True,
-        ("exposes", "precision", "drawn again"),
+        ("exposes", "precision", "redrawn"),
     )
 
 
 def touching_table(part: pd.DataFrame, question: str) -> Table:
-    """What each method said where the bodies share a point and no more; without such cases no
-    rows.
-    """
+    """The answers of each method to touching cases; no rows if there are none."""
     counts = metrics.rates(part[part.touching], ["method"])
     clears = counts.touching - counts.touching_hits
     shown = {
@@ -72,10 +71,11 @@ def touching_table(part: pd.DataFrame, question: str) -> Table:
         touching_clears=clears
     )
     caption = (
-        "The bodies are certified to touch without overlapping: neither answer is wrong, and "
-        "these cases are in no rate."
+        "The bodies are certified to touch without overlapping, so neither answer is wrong; these"
+        " cases enter no rate."
     )
-    return Table(f"touching-{question}", f"Touching, {question}.", caption, numbers, text, True)
+    title = f"Touching cases, {question}."
+    return Table(f"touching-{question}", title, caption, numbers, text, True)
 
 
 def _exposes(name: str) -> str:

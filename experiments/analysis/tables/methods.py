@@ -1,4 +1,4 @@
-"""The table of the methods of a run, as they declare themselves."""
+"""The table of the methods of a run, as each method declares them."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from ofg import QUESTIONS
 
 from .table import Table
 
-UNKNOWN = "its file is not loaded here"  #: in place of what a method declares
+UNKNOWN = "the method's file is not loaded"  #: shown instead of a guarantee
 
 
 def _tolerance(name: str, found: pd.DataFrame) -> str:
-    """Of the labels of a method; more than one where a parameter decides it."""
+    """The tolerances of a method's labels; more than one if it depends on a parameter."""
     made = [
         m for label in found.method.unique() if name_of(label) == name and (m := method_of(label))
     ]
@@ -24,7 +24,7 @@ def _tolerance(name: str, found: pd.DataFrame) -> str:
 
 
 def method_table(store: Store, found: pd.DataFrame) -> Table:
-    """What each method of the run is, as it declares itself, with the version that ran."""
+    """The properties that each method of the run declares, with the engine version that ran."""
     versions, known, rows = store.facts.get("versions", {}), registry.methods(), []
     for name in dict.fromkeys(name_of(label) for label in found.method):
         m = known.get(name)
@@ -62,8 +62,9 @@ def method_table(store: Store, found: pd.DataFrame) -> Table:
     return Table(
         "methods",
         "Methods.",
-        "As they declare themselves. Answers: overlap, translation, motion; bodies: convex, mesh,"
-        " union. A method is left out of the tables of questions that it does not answer.",
+        "Properties declared by each method. Answers: overlap, translation, motion. Bodies: convex,"
+        " mesh, union. A method does not appear in the tables of questions that it does not"
+        " answer.",
         frame,
         text.astype(str),
         optional=("guarantee", "engine"),

@@ -1,4 +1,4 @@
-"""Tables of a stepping run: which bodies passed an obstacle."""
+"""Tables of a stepping run: how often a body tunnelled through its obstacle."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .table import Table, of
 
 
 def stepping_tables(store: Store) -> Iterator[Table]:
-    """A table per scene: what got past, by thicknesses per step."""
+    """A table per scene: tunnelled runs by thicknesses travelled per step."""
     rows = store.read("stepping.parquet")
     told = rows[rows.tunnelled.notna()]
     for scene, part in told.groupby("scene", sort=False):
@@ -24,9 +24,9 @@ def stepping_tables(store: Store) -> Iterator[Table]:
         text["us/step"] = part.groupby("contestant").us_per_step.median().map(lambda v: f"{v:.1f}")
         yield Table(
             f"stepping-{scene.replace(' ', '-')}",
-            f"Got past: {scene}.",
-            "Tunnelled of the runs, by thicknesses travelled per step; each run has its own start"
-            " phase. 95 % Wilson intervals in the CSV. us/step: median time of a step.",
+            f"Tunnelled: {scene}.",
+            "Tunnelled runs, of all runs, by thicknesses travelled per step; each run has its own"
+            " start phase. 95 % Wilson intervals in the CSV. us/step: median time of a step.",
             part.drop(columns=["travelled", "detail"]),
             text.reset_index(),
             True,
@@ -35,8 +35,8 @@ def stepping_tables(store: Store) -> Iterator[Table]:
     if len(lost):
         yield Table(
             "unanswered",
-            "What did not run, and why.",
-            "None of these is counted as tunnelled.",
+            "Simulations that did not run, with the reason.",
+            "None of them is counted as tunnelled.",
             lost,
             lost.astype(str),
         )

@@ -11,7 +11,7 @@ from .table import Table, of, pivot
 
 
 def speed_table(part: pd.DataFrame, question: str) -> Table:
-    """Tunnelling along the axis of the first scenario whose axis is a speed over a thickness."""
+    """Misses by level in the scenarios whose axis is a speed over a thickness."""
     walls = [n for n in part.scenario.unique() if "thickness" in _axis(n)]
     part = part[part.scenario.isin(walls)]
     counts = (
@@ -23,8 +23,8 @@ def speed_table(part: pd.DataFrame, question: str) -> Table:
     counts["speed"] = [f"{v:g}" for v in counts.level]
     return Table(
         f"tunnelling-{question}",
-        f"Misses against speed over thickness, {question}.",
-        f"Scenario {', '.join(walls)}; columns are thicknesses travelled in the step.",
+        f"Misses by speed over thickness, {question}.",
+        f"Misses of hits answered in {', '.join(walls)}, by thicknesses travelled in the step.",
         counts,
         pivot(counts, "speed", lambda r: of(r.misses, r.hits), levels) if len(counts) else counts,
     )
@@ -44,8 +44,8 @@ def time_table(part: pd.DataFrame, question: str) -> Table:
     return Table(
         f"time-of-impact-{question}",
         f"Time of impact, {question}.",
-        "Error beyond the certified bracket, as a share of the step, where both say hit; late is"
-        " positive.",
+        "Error outside the certified bracket, as a share of the step, for correctly reported hits;"
+        " late errors are positive.",
         errors,
         text,
     )

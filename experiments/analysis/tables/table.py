@@ -1,4 +1,4 @@
-"""One table: its numbers, its text, and the files that it is written to."""
+"""One table: its numbers, its text, and the files in which it is stored."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from tabulate import tabulate
 
 from experiments.run.config import TableChoice
 
-MARK = " \u2020"  # a dagger behind a name: the caption says what it means
+MARK = " \u2020"  # a dagger after a name, explained in the caption
 
 
 @dataclass(frozen=True)
 class Table:
-    """numbers: what CSV holds. text: what people read; same rows. headline: printed at the end of a
-    run; the others on demand. optional: columns of text that a narrow terminal leaves out, the
-    first to go first.
+    """A table. numbers: the content of the CSV file. text: the cells as printed, usually with the
+    same rows. headline: whether to print it at the end of a run. optional: columns of `text` that a
+    narrow terminal omits, in the order in which they are dropped.
     """
 
     name: str
@@ -31,7 +31,7 @@ class Table:
 
 
 def marked(names, which: set[str]) -> list[str]:
-    """Names with the mark behind those that are in `which`."""
+    """The names, with the mark appended to those in `which`."""
     return [f"{name}{MARK}" if name in which else name for name in names]
 
 
@@ -46,8 +46,8 @@ def texts(table: Table) -> dict[str, str]:
 
 
 def latex(table: Table) -> str:
-    """A table environment for the booktabs package. Wide ones are for the reader to turn or to
-    shrink.
+    """A LaTeX table environment for the booktabs package. The user must rotate or shrink wide
+    tables.
     """
     align = ["left"] + ["right"] * (table.text.shape[1] - 1)
     body = tabulate(
@@ -66,7 +66,7 @@ def latex(table: Table) -> str:
 
 
 def _tex(text: str) -> str:
-    """Text as LaTeX prints it; tabulate does the same for cells."""
+    """Text with LaTeX's special characters escaped, as tabulate does for cells."""
     special = {
         "\\": r"\textbackslash{}",
         "~": r"\textasciitilde{}",
@@ -85,7 +85,7 @@ def markdown(table: Table) -> str:
 
 
 def of(count: int, total: int) -> str:
-    """'3/40', or '-' where there is nothing to count."""
+    """'3/40', or '-' if the total is 0."""
     return f"{count}/{total}" if total else "-"
 
 
@@ -106,8 +106,8 @@ def share(count: int, total: int) -> str:
 
 
 def pivot(counts: pd.DataFrame, column: str, cell, order=None) -> pd.DataFrame:
-    """A row per method, a column per value of `column`: cell(row) of each, '-' where there is
-    none.
+    """A row per method and a column per value of `column`, with cell(row) as entry and '-' if there
+    is none. Methods without any entry are omitted.
     """
     counts = counts.assign(cell=[cell(r) for r in counts.itertuples()])
     wide = counts.pivot(index="method", columns=column, values="cell")

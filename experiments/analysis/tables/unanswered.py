@@ -1,4 +1,4 @@
-"""The table of what was not answered, and why."""
+"""The table of unanswered cases, with the reason."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def trouble_table(found: pd.DataFrame) -> Table:
     )
     return Table(
         "unanswered",
-        "What was not answered, and why.",
-        "None of these is counted as a miss.",
+        "Unanswered cases, with the reason.",
+        "None of them is counted as a miss.",
         counts,
         counts.astype(str),
     )

@@ -1,1 +1,1 @@
-"""The commands of ofg-bench, by what they are about."""
+"""The commands of ofg-bench, grouped by subject."""

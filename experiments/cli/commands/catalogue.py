@@ -1,4 +1,4 @@
-"""What there is: scenarios, methods, experiments, presets."""
+"""List the scenarios, methods, experiments and presets."""
 
 from __future__ import annotations
 
@@ -14,8 +14,10 @@ from experiments.run import config as configuration
 
 
 def list_(methods: Methods = None, scenarios_: Scenarios = None) -> None:
-    """Show scenarios, methods (what each can answer, and whether its engine is installed),
-    experiments and presets.
+    """List scenarios, methods, experiments and presets.
+
+    For each method, the list shows the questions that it answers and whether its engine is
+    installed.
     """
     load_own(methods, scenarios_)
     print_grid(
@@ -54,28 +56,29 @@ def list_(methods: Methods = None, scenarios_: Scenarios = None) -> None:
         ],
     )
     console.print(
-        "Questions: [b]o[/b]verlap at one pose pair, [b]t[/b]ranslation, [b]m[/b]otion (turning and"
-        " translating)."
+        "Questions: [b]o[/b]verlap at fixed poses, [b]t[/b]ranslation, [b]m[/b]otion (translation"
+        " and rotation)."
     )
     console.print()
     experiments = {name: configuration.load(name) for name in configuration.experiments()}
     print_grid(
         "Experiments",
-        ("name", "title", "what it asks"),
+        ("name", "title", "purpose"),
         [(name, c.title, c.about) for name, c in experiments.items()],
     )
     print_grid(
         "Presets",
-        ("name", "what it is"),
+        ("name", "purpose"),
         [(name, configuration.load(name).about) for name in configuration.presets()],
-        "Each experiment and each preset runs alone: ofg-bench run NAME. ofg-bench preset NAME >"
-        " mine.toml gives a copy to change.",
+        "Run one with: ofg-bench run NAME. Copy its configuration to a file with: ofg-bench preset"
+        " NAME > mine.toml",
     )
 
 
-def preset(name: Annotated[str, typer.Argument(help="of a preset or an experiment")]) -> None:
-    """Print the configuration of a preset or experiment, to be changed and run: ofg-bench preset
-    quick > mine.toml
+def preset(name: Annotated[str, typer.Argument(help="name of a preset or experiment")]) -> None:
+    """Print the configuration of a preset or experiment, as a start for your own.
+
+    For example: ofg-bench preset quick > mine.toml
     """
     configuration.load(name)
     print(configuration.path_of(name).read_text(), end="")

@@ -15,25 +15,28 @@ from experiments.run.folder.store import Store
 
 
 def compare(
-    first: Annotated[Path, typer.Argument(help="folder of a run: before")],
-    second: Annotated[Path, typer.Argument(help="folder of a run: after")],
-    show: Annotated[int, typer.Option(min=0, help="print at most so many answers that moved")] = 40,
+    first: Annotated[
+        Path, typer.Argument(metavar="FIRST", help="folder of the run before the change")
+    ],
+    second: Annotated[
+        Path, typer.Argument(metavar="SECOND", help="folder of the run after the change")
+    ],
+    show: Annotated[int, typer.Option(min=0, help="maximum number of changed rows to print")] = 40,
     accept: Annotated[
         bool,
         typer.Option(
             "--accept",
             help=(
-                "afterwards make SECOND the reference: FIRST then holds its answers and labels,"
-                " without certificates and times"
+                "after the comparison, replace FIRST by the answers and labels of SECOND, without"
+                " certificates and times, as the new reference"
             ),
         ),
     ] = False,
     trust: Trust = False,
 ) -> None:
-    """Say what changed from one run to another: in accuracy, to the case, and in time, paired by
-    case.
+    """Compare two runs: accuracy case by case, and time as ratios paired by case.
 
-    Exit code 0 if accuracy is identical over the same cases and methods, 1 if not.
+    The exit code is 0 if accuracy is identical over the same cases and methods, and 1 otherwise.
     """
     from experiments.analysis.compare import compare as differences
     from experiments.analysis.compare import reference
@@ -56,22 +59,22 @@ def compare(
                 )
     if found.remade:
         console.print(
-            f"{len(found.remade)} cases have other bodies, poses or motions in {markup(second)} and"
-            f" are not compared; {len(found.changed)} of them differ by more than rounding, so they"
-            " ask a different question:"
+            f"{len(found.remade)} cases have different bodies, poses or motions in"
+            f" {markup(second)} and are not compared; {len(found.changed)} of them differ by more"
+            " than rounding, so they are different queries:"
             f" {markup(', '.join(found.remade[:8]))}{', ...' if len(found.remade) > 8 else ''}",
             highlight=False,
         )
     for title, frame in (
-        ("Labels that moved: the truth of the two runs differs.", found.labels),
-        ("Answers that moved.", found.answers),
+        ("Changed labels: the certified truth of the two runs differs.", found.labels),
+        ("Changed answers.", found.answers),
     ):
         if len(frame):
             print_grid(
                 title,
                 frame.columns,
                 list(frame.head(show).itertuples(index=False)),
-                f"{min(show, len(frame))} of {len(frame)}.",
+                f"{min(show, len(frame))} of {len(frame)} shown.",
             )
     if len(found.rates):
         pairs = [c.removesuffix("_before") for c in found.rates.columns if c.endswith("_before")]
@@ -84,27 +87,28 @@ def compare(
             for r in found.rates.to_dict("records")
         ]
         print_grid(
-            "Accuracy that moved, over the cases of both runs.",
+            "Changed accuracy, over the cases of both runs.",
             ("question", "method", *(c.replace("_", " ") for c in pairs)),
             rows,
             "before -> after.",
         )
     if len(found.times):
         print_grid(
-            "Time, second run over first.",
+            "Time ratio, second run to first.",
             found.times.columns,
             [
                 (r.question, r.method, f"{r.ratio:.3g}", f"{r.low:.3g}", f"{r.high:.3g}", r.pairs)
                 for r in found.times.itertuples()
             ],
-            "Median of the gross ratios case by case, 95 % bootstrap interval. Two runs are two"
-            " states of the machine: read it against the methods that did not change.",
+            "Median of the case-by-case ratios of gross times, with its 95 % bootstrap interval."
+            " The state of the machine may differ between the runs; the ratios of unchanged methods"
+            " show by how much.",
         )
     console.print(
         f"Accuracy is {'identical' if found.identical else 'NOT identical'}: {len(found.answers)}"
-        f" of {found.compared} answers moved, {len(found.labels)} "
-        f"labels moved{'' if found.same_content else '; the runs differ in their cases or methods'}"
-        f"{f'; {len(found.changed)} cases ask a different question' if found.changed else ''}.",
+        f" of {found.compared} answers changed, {len(found.labels)} labels"
+        f" changed{'' if found.same_content else '; the runs differ in their cases or methods'}"
+        f"{f'; {len(found.changed)} cases are different queries' if found.changed else ''}.",
         highlight=False,
     )
     if accept:

@@ -1,4 +1,4 @@
-"""ofg-bench native: build the native lane with what is found here, and time everything in it."""
+"""ofg-bench native: build the native benchmark with the libraries found, and run it."""
 
 from __future__ import annotations
 
@@ -13,23 +13,24 @@ from experiments.cli.reading import opened, reading
 Run = Annotated[
     Path | None,
     typer.Argument(
-        help="folder of a run, whose certified cases are asked [default: hulls by size]"
+        metavar="RUN",
+        help="folder of the run whose certified cases are used [default: convex hulls by size]",
     ),
 ]
-Cases = Annotated[int, typer.Option(min=1, help="cases of a cell, each with bodies of its own")]
+Cases = Annotated[int, typer.Option(min=1, help="cases per cell, each with its own bodies")]
 Poses = Annotated[
     int,
-    typer.Option(min=32, help="poses of a cell of one pair; a quarter of them from 1,280 faces on"),
+    typer.Option(min=32, help="poses per cell of one pair; a quarter from 1,280 faces on"),
 ]
 Rounds = Annotated[int, typer.Option(min=3, help="timed rounds")]
-Seed = Annotated[int, typer.Option(min=0, help="of bodies and poses; a run has its own")]
-Core = Annotated[int, typer.Option(min=-1, help="the core to run on; -1: any")]
-Python = Annotated[bool, typer.Option("--python", help="ask the methods from Python, too")]
-Build = Annotated[bool, typer.Option("--build", help="build what is found, and time nothing")]
+Seed = Annotated[int, typer.Option(min=0, help="seed of bodies and poses; not used with RUN")]
+Core = Annotated[int, typer.Option(min=-1, help="processor core to run on; -1 for any")]
+Python = Annotated[bool, typer.Option("--python", help="also time the methods from Python")]
+Build = Annotated[bool, typer.Option("--build", help="only build; time nothing")]
 Out = Annotated[
     Path | None,
     typer.Option(
-        help="folder for rows.parquet and native.md, which has more tables than are printed"
+        help="folder for rows.parquet and native.md; native.md has tables that are not printed"
     ),
 ]
 
@@ -45,11 +46,12 @@ def native(
     out: Out = None,
     build: Build = False,
 ) -> None:
-    """Time OFG and the engines as C++ libraries on the same cases: who errs, at what cost.
+    """Time OFG and the engines as C++ libraries on the same cases, and count wrong answers.
 
-    With a RUN: its certified cases of convex bodies and meshes. The table goes into its report.
-    Without: pairs of 12 to 5,120 faces, apart, in each other and flying, with certified labels.
-    OFG_NATIVE=required makes an engine that cannot be built an error.
+    With RUN, the cases are its certified cases of convex bodies and meshes, and the table is added
+    to its report. Without RUN, the cases are pairs of 12 to 5,120 faces, apart, overlapping and
+    moving, with certified labels. With OFG_NATIVE=required, an engine that cannot be built is an
+    error.
     """
     from baselines.native import NativeError
     from experiments.studies.native.study import head, study

@@ -1,4 +1,4 @@
-"""The report of a run, a page for one case, the findings over all runs."""
+"""The report of a run, the page of one case, and the findings of all runs."""
 
 from __future__ import annotations
 
@@ -16,25 +16,26 @@ from experiments.run.folder.given import markup
 
 def findings(
     results: Annotated[
-        Path, typer.Argument(help="folder of run folders, as reproduce makes it")
+        Path, typer.Argument(help="folder of run folders, as ofg-bench reproduce creates it")
     ] = Path("results"),
     into: Annotated[
-        Path | None, typer.Option(help="write the page here [default: print it]")
+        Path | None, typer.Option(help="file to write [default: print the page]")
     ] = None,
     objections: Annotated[
         Path | None,
-        typer.Option(help="write the page of objections and answers here, and no findings"),
+        typer.Option(help="write objections and answers to this file instead of the findings"),
     ] = None,
 ) -> None:
-    """Say what the runs of a folder found: each claim of the article with its verdict, then each
-    engine. What is missing is said to be.
+    """Summarise the findings of all runs in a folder: a verdict on each claim of the article, then
+    a section per engine. Missing runs are listed.
     """
     from experiments.publish.findings import Runs, page
     from experiments.publish.findings import objections as objections_page
 
     if not results.is_dir():
         raise configuration.ConfigError(
-            f"The folder {results} does not exist. Name the one that ofg-bench reproduce made."
+            f"The folder {results} does not exist. Name the folder that ofg-bench reproduce"
+            " created."
         )
     with reading(results):
         text = page(results) if objections is None else objections_page.page(Runs(results))
@@ -43,11 +44,11 @@ def findings(
         print(text, end="")
         return
     into.write_text(text)
-    console.print(f"The page is {markup(into)}.")
+    console.print(f"Wrote {markup(into)}.")
 
 
 def report(run_: Run, trust: Trust = False) -> None:
-    """Write report.html of a finished run anew: one file with everything, for any browser."""
+    """Rebuild report.html of a finished run: one self-contained file for any browser."""
     from experiments.publish.report import report as write_report
 
     with reading(run_):
@@ -60,43 +61,40 @@ def explain(
         str | None,
         typer.Argument(
             metavar="CASE",
-            help="a case of the run, as in its tables and its report, like thin_wall/100/0007",
+            help="name of a case as in the report, such as thin_wall/100/0007",
         ),
     ] = None,
     run_: Annotated[
-        Path | None, typer.Option("--run", help="folder of the run that has the case")
+        Path | None, typer.Option("--run", help="folder of the run that contains the case")
     ] = None,
-    file: Annotated[
-        Path | None, typer.Option(help="a case in a file of its own, instead of a run")
-    ] = None,
+    file: Annotated[Path | None, typer.Option(help="file with one case, instead of a run")] = None,
     out: Annotated[
-        Path | None, typer.Option(help="the page [default: CASE.html, with - for /]")
+        Path | None,
+        typer.Option(help="file of the page [default: CASE.html, with / replaced by -]"),
     ] = None,
     save: Annotated[
-        Path | None, typer.Option(help="also write the case into this file, for --file")
+        Path | None, typer.Option(help="also write the case to this file, for use with --file")
     ] = None,
     ask: Annotated[
-        bool, typer.Option("--ask", help="ask the methods anew, each in a process of its own")
+        bool, typer.Option("--ask", help="run the methods again, each in its own process")
     ] = False,
     method: Annotated[
         list[str] | None,
         typer.Option(
             "--method",
-            help="which to ask with --ask; may be repeated [default: those of the run or file]",
+            help="method to run again; may be repeated [default: all methods of the run or file]",
         ),
     ] = None,
     methods: Methods = None,
     trust: Trust = False,
 ) -> None:
-    """Show one case: a page with its bodies in 3D and its certificate, and a table of what every
-    method said.
-    """
+    """Show one case: a page with its bodies in 3D and its certificate, and a table of answers."""
     from experiments.publish.report.request import Request, show
 
     if (run_ is None) == (file is None) or (run_ is not None and name is None):
         raise configuration.ConfigError(
             "Name a case and its run (ofg-bench explain thin_wall/100/0007 --run"
-            " results/runs/quick), or a file (ofg-bench explain --file case.json)."
+            " results/runs/quick), or only a file (ofg-bench explain --file case.json)."
         )
     load_own(methods, None)
     with reading(run_ or file):

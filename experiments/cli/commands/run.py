@@ -1,4 +1,4 @@
-"""Run a configuration, finish a run, reproduce all experiments."""
+"""Run a configuration, resume a run, reproduce all experiments."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def run(
     source: Annotated[
         str,
         typer.Argument(
-            metavar="CONFIG", help="the name of a preset or experiment, or the path of a .toml file"
+            metavar="CONFIG", help="name of a preset or experiment, or path of a .toml file"
         ),
     ],
     out: Annotated[
@@ -31,14 +31,16 @@ def run(
     seed: Annotated[
         int | None,
         typer.Option(
-            min=0, max=configuration.MOST_SEED, help="another seed than the configuration's"
+            min=0, max=configuration.MOST_SEED, help="seed to use instead of the configuration's"
         ),
     ] = None,
     skip_missing: SkipMissing = False,
     methods: Methods = None,
     scenarios_: Scenarios = None,
 ) -> None:
-    """Run a configuration and print its tables. Said again, it goes on where it was interrupted."""
+    """Run a configuration and print its tables. Run the command again to resume after an
+    interruption.
+    """
     from experiments.cli import entries
 
     chosen = configuration.load(source)
@@ -57,19 +59,19 @@ def reproduce(
         list[str] | None,
         typer.Argument(
             help=(
-                "experiments and presets [default: every experiment of the catalogue, then"
+                "names of experiments and presets [default: every experiment of the catalogue, then"
                 " standard]"
             )
         ),
     ] = None,
-    into: Annotated[Path, typer.Option(help="folder of the run folders")] = Path("results"),
+    into: Annotated[Path, typer.Option(help="folder for the run folders")] = Path("results"),
     workers: Workers = None,
 ) -> None:
-    """Run experiments one after another, each into its own folder, build all tables, figures and
-    reports anew, and write the findings.
+    """Run experiments one after another, each in its own folder, rebuild all tables, figures and
+    reports, and write the findings.
 
-    What is finished already is not run again: remove its folder if it shall be. Said again after an
-    interruption, it goes on where it stopped.
+    Finished runs are not repeated; to repeat one, remove its folder. Run the command again to
+    resume after an interruption.
     """
     from experiments.cli import entries, runner
 
@@ -87,18 +89,18 @@ def reproduce(
     if everything:
         from experiments.studies import sizes
 
-        console.print("[bold]and sizes: misses and operations by size, depth and k[/]")
+        console.print("[bold]sizes[/]: misses and operations by size, depth and k", highlight=False)
         sizes.run(into / "sizes")
     findings(into, into / "README.md")
     findings(into, objections=into / "OBJECTIONS.md")
     console.print(
-        f"All of it is in {markup(into)}: tables, figures, report.html, manifest.json and the rows"
-        " of each run."
+        f"{markup(into)} contains the tables, figures, report.html, manifest.json and rows of each"
+        " run."
     )
 
 
 def resume(run_: Run, workers: Workers = None, skip_missing: SkipMissing = False) -> None:
-    """Finish a run that was interrupted. It ends as if it had not been."""
+    """Finish an interrupted run. The result is the same as without the interruption."""
     from experiments.cli import entries
 
     config = Store(run_).config
@@ -119,13 +121,13 @@ def _run(
             print_table(table)
     if others := ", ".join(table.name for table in made if not table.headline):
         console.print(
-            f"{len(made)} tables were made; not printed here: {others}. Print them with: ofg-bench"
-            f" tables {markup(folder)} --only NAME\n"
+            f"{len(made)} tables were written; not printed here: {others}. Print one with:"
+            f" ofg-bench tables {markup(folder)} --only NAME\n"
         )
     if config.stepping:
         console.print(
-            f"Tables (CSV, Markdown, LaTeX) are in {markup(folder / 'tables')}, all counts in"
-            f" {markup(folder / 'stepping.parquet')}."
+            f"Tables (CSV, Markdown, LaTeX) are in {markup(folder / 'tables')}, and all counts are"
+            f" in {markup(folder / 'stepping.parquet')}."
         )
     else:
         console.print(
@@ -145,4 +147,4 @@ def _say_missing(config: configuration.RunConfig) -> None:
 
     configuration.load_files(config)
     for reason in runner.missing(config.optional_methods):
-        console.print(f"Its rows stay empty: {markup(reason)}", highlight=False)
+        console.print(f"These rows stay empty: {markup(reason)}", highlight=False)

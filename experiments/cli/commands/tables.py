@@ -16,19 +16,21 @@ from experiments.run.folder.given import markup
 
 def tables(
     run_: Run,
-    only: Annotated[str, typer.Option(help="print only tables whose name contains this")] = "",
+    only: Annotated[
+        str, typer.Option(help="print only the tables whose name contains this text")
+    ] = "",
     into: Annotated[
         Path | None,
         typer.Option(
             help=(
-                "also put them into this Markdown page, between its markers `<!-- table NAME -->`"
-                " and `<!-- end -->`"
+                "also insert the tables into this Markdown page, between its markers"
+                " `<!-- table NAME -->` and `<!-- end -->`"
             )
         ),
     ] = None,
     trust: Trust = False,
 ) -> None:
-    """Build the tables of a finished run anew from its rows, and print them."""
+    """Rebuild the tables of a finished run from its rows, and print them."""
     from experiments.analysis import outcome
     from experiments.analysis.tables import build
     from experiments.analysis.tables import save as save_tables
@@ -43,12 +45,13 @@ def tables(
     for table in found:
         if only in table.name:
             print_table(table)
+    console.print("Terms: experiments/GLOSSARY.md")
     if into:
         into.write_text(readme.fill(given.text(into, "The page"), run_ / "tables"))
 
 
 def figures(run_: Run, trust: Trust = False) -> None:
-    """Draw the figures of a finished run anew."""
+    """Redraw the figures of a finished run."""
     from experiments.analysis.plots import curves
     from experiments.analysis.plots.figures import accuracy_speed
     from experiments.analysis.tables import build

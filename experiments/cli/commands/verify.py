@@ -18,23 +18,24 @@ from experiments.run.folder.store import Store
 def verify(
     run_: Run,
     ask: Annotated[
-        str, typer.Option(help="ask the methods again about this many random cases, or about all")
+        str, typer.Option(help="number of random cases to run the methods on again, or 'all'")
     ] = "",
-    ask_seed: Annotated[int | None, typer.Option(min=0, help="seed of that random choice")] = None,
+    ask_seed: Annotated[
+        int | None, typer.Option(min=0, help="seed for the choice of these cases")
+    ] = None,
     trust: Trust = False,
     workers: Workers = None,
 ) -> None:
-    """Check a run: its files, its rows, every case drawn and proved again, and answers with --ask.
+    """Check the files and rows of a run; redraw and prove every case again; repeat answers with
+    --ask.
 
-    Exit code 0 if nothing is refused, 1 if something is. experiments/truth/README.md says what this
-    cannot find.
+    The exit code is 0 if nothing is refused, and 1 otherwise. experiments/truth/README.md lists
+    what this check cannot detect.
     """
     from experiments import verification
 
     if ask not in ("", "all") and not (ask.isascii() and ask.isdigit()):
-        raise configuration.ConfigError(
-            f"--ask takes a number of cases or the word all, not '{ask}'."
-        )
+        raise configuration.ConfigError(f"--ask must be a number of cases or 'all', not '{ask}'.")
     count = None if not ask else -1 if ask == "all" else int(ask)
     with reading(run_):
         found = verification.verify(Store(run_), count, trust, workers, ask_seed)
@@ -45,11 +46,11 @@ def verify(
 
 def check(
     name: Annotated[
-        str, typer.Argument(metavar="METHOD", help='a method, with parameters if any: "ofg k=16"')
+        str, typer.Argument(metavar="METHOD", help='method with its parameters, such as "ofg k=16"')
     ],
     methods: Methods = None,
 ) -> None:
-    """Put a method through the conformance suite that every method here must pass."""
+    """Run a method through the conformance suite that every method must pass."""
     from baselines import conformance
 
     load_own(methods, None)

@@ -1,4 +1,4 @@
-"""report.html: a run as one self-contained page, and the same page for one case."""
+"""report.html: one self-contained page for a run, and the same page for a single case."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from experiments.run.folder.store import Store
 
 
 def report(store: Store, tables: Sequence | None = None) -> None:
-    """Write RUN/report.html from the rows of a finished run. StoreError where the run is not
+    """Write RUN/report.html from the rows of a finished run. Raises StoreError if the run is not
     finished or the disk is full.
 
-    tables: those of the run (tables.build), if they are made already.
+    tables: the run's tables (tables.build), if they have been built already.
     """
     from . import page, payload
 

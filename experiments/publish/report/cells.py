@@ -1,6 +1,6 @@
-"""Which cases stand behind a cell of a table.
+"""Links from the cells of a table to the cases that they count.
 
-A link is a few conditions that `select` here and `casesOf` in page/data.js read alike.
+A link is a set of conditions; `select` here and `casesOf` in page/data.js evaluate it alike.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ COLUMNS = {
     "early": "early",
 }
 LABELS = {"cases": None, "hit": "hit", "clear": "clear", "uncertain": "uncertain"}
-#: value of a table that an experiment asked for -> kind of the rows that it is over
+#: value of a table that a configuration defines -> kind of the rows that it covers
 VALUES = {
     "misses": "judged hit",
     "false alarms": "judged clear",
@@ -48,7 +48,7 @@ VALUES = {
     "build time": "clocked",
     "ratio": "clocked",
 }
-#: tables over the cases that all methods answered, which no link can say
+#: tables over the common cases, which no link can express
 UNLINKED = ("common-", "ranks-")
 
 
@@ -56,8 +56,8 @@ def links(table, found: pd.DataFrame) -> list[list[dict | None]]:
     """A link, or None, for each cell of table.text.
 
     Keys of a link, all optional: method, question, scenario, level, band, sizes, situation, label;
-    scenarios, levels (any of them); tag ([name, values], any of them); detail (its beginning); kind
-    (see `kinds`).
+    scenarios, levels (any of them); tag ([name, values], any of the values); detail (a prefix);
+    kind (see `kinds`).
     """
     if table.choice:
         return _chosen(table, found)
@@ -85,7 +85,7 @@ def links(table, found: pd.DataFrame) -> list[list[dict | None]]:
 
 
 def _chosen(table, found: pd.DataFrame) -> list[list[dict | None]]:
-    """Links of a table that an experiment asked for: a row per method, a column per value of its
+    """Links of a table that a configuration defines: a row per method, a column per value of its
     choice.
     """
     choice = table.choice
@@ -116,7 +116,7 @@ def _chosen(table, found: pd.DataFrame) -> list[list[dict | None]]:
 
 
 def _values(name: str, column: str, found: pd.DataFrame) -> dict | None:
-    """The condition that a column of such a table stands for; tables.py prints numbers with six
+    """The condition that a column of such a table represents; the tables print numbers with six
     digits.
     """
     if name in ("scenario", "question", "situation", "band"):
@@ -166,7 +166,7 @@ def _link(name, column, value, row, place, scenarios, bands) -> dict | None:
         return {**link, "kind": "touching"} if column == "answered" else None
     if (
         name.startswith("scenarios-") and column in scenarios
-    ):  # one of them is called "contained", as a column elsewhere
+    ):  # a scenario is called "contained", like a column of other tables
         return {**link, "scenario": column, "kind": "judged"}
     if column in bands:
         return {**link, "band": column, "kind": "judged"}
@@ -176,8 +176,8 @@ def _link(name, column, value, row, place, scenarios, bands) -> dict | None:
 def select(
     found: pd.DataFrame, link: dict, clocked: set[tuple[str, str]] = frozenset()
 ) -> pd.DataFrame:
-    """Rows of metrics.outcomes (with columns band, sizes, situation) behind a link. clocked:
-    (method, case) that were timed.
+    """Rows of outcome.outcomes (with columns band, sizes, situation) that a link selects. clocked:
+    pairs (method, case) that were timed.
     """
     keep = pd.Series(True, found.index)
     for key in ("method", "question", "scenario", "level", "band", "sizes", "situation", "label"):
@@ -197,9 +197,12 @@ def select(
 
 
 def kinds(found: pd.DataFrame, kind: str, clocked=frozenset()) -> pd.Series:
-    """An outcome; "tunnelled", "wrong", "within" or "beyond" the method's tolerance; what rates are
-    over: "judged", "judged hit", "judged clear", "can tunnel", "asked", "answered"; "timed" (has an
-    error of its time), "late", "early"; "clocked" (timed by the clock); "all".
+    """Whether each row is of a kind.
+
+    A kind is an outcome; "tunnelled", "wrong", "within" or "beyond" the method's tolerance; the
+    denominator of a rate: "judged", "judged hit", "judged clear", "can tunnel", "asked",
+    "answered"; "timed" (has an error of the time of impact), "late", "early"; "clocked" (has a
+    query time); "all".
     """
     if kind == "all":
         return pd.Series(True, found.index)

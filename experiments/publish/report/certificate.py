@@ -1,5 +1,5 @@
-"""What of a certificate can be drawn: its planes with the elements and the time each is for, and
-its common point.
+"""Extract the parts of a certificate that can be drawn: its planes, each with its elements and
+times, and its common point.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import Any
 
 RATIONAL = re.compile(r"-?[0-9]{1,4000}(/[0-9]{1,4000})?")
-MOST_PLANES = 4000  # of one case; a proof about two large meshes has more than anyone can look at
+MOST_PLANES = 4000  # per case; a proof about two large meshes has too many to view
 
 
 def drawable(certificate: Mapping[str, Any], most: int = MOST_PLANES) -> dict:
@@ -18,15 +18,15 @@ def drawable(certificate: Mapping[str, Any], most: int = MOST_PLANES) -> dict:
 
     "clear", "end_clear": {"planes": n, "leaves": [[s, e, frame, nx, ny, nz, a_from, a_to, b_from,
     b_to], ...], "order_a", "order_b"}: over [s, e] the normal n, fixed in the world (frame "W") or
-    turning with A ("A"), points from the elements order_a[a_from:a_to] of A to order_b[b_from:b_to]
-    of B and separates them. An order is left out where it is 0, 1, 2, ...; the leaves where there
-    are more than `most`. "hit", "end_hit": {"point": [x, y, z]} in the world. Of a certificate that
-    cannot be read nothing.
+    rotating with A ("A"), points from the elements order_a[a_from:a_to] of A to
+    order_b[b_from:b_to] of B and separates them. An order is omitted if it is 0, 1, 2, ...; the
+    leaves are omitted if there are more than `most`. "hit", "end_hit": {"point": [x, y, z]} in the
+    world. A certificate that cannot be read gives {}.
     """
     try:
         return _drawable(certificate, most)
     except (KeyError, TypeError, ValueError, ArithmeticError, AttributeError, IndexError):
-        return {}  # the checker says what is wrong with it
+        return {}  # the checker reports the fault
 
 
 def _drawable(certificate, most: int) -> dict:
@@ -71,5 +71,5 @@ def _planes(proof: Mapping[str, Any], start: float, most: int) -> dict:
 def _number(x) -> float:
     if isinstance(x, str) and not RATIONAL.fullmatch(x):
         # a Fraction of "1e999999999" would fill the memory
-        raise ValueError(f"{x[:40]} is no rational")
+        raise ValueError(f"{x[:40]} is not a rational number")
     return float(Fraction(x)) if isinstance(x, str) else float(x)

@@ -1,13 +1,15 @@
-"""One case as a page of its own, from a run or from a file.
+"""Show one case, from a run or from a file, on its own page.
 
-The file (JSON): {"case": the row of cases.parquet, "bodies": its two rows of bodies.parquet (one
-where both are equal), "observations": rows of observations.parquet, may be missing, "pieces": its
-row of pieces.parquet in a list, may be missing: methods that decompose are then judged by the
-mesh}. A file written by hand needs of "case": question, body_a, body_b, and what is not at rest of
-quaternion_a, position_a, quaternion_b, position_b, displacement, axis, angle, about (of A's motion;
-with "_b" behind, of B's); of a body: body (any name), kind, vertices, faces (flat lists; a convex
-body needs no faces; a union piece_vertices and piece_faces). Where it has no label the case is
-certified anew.
+The file is JSON: {"case": the row of cases.parquet, "bodies": the two rows of bodies.parquet (one
+if both bodies are equal), "observations": rows of observations.parquet (optional), "pieces": a list
+with the row of pieces.parquet (optional; without it, methods that decompose are judged by the
+mesh)}.
+
+A file written by hand needs these fields. "case": question, body_a, body_b, and, if they differ
+from the identity, quaternion_a, position_a, quaternion_b, position_b, displacement, axis, angle,
+about (of A's motion; with the suffix "_b", of B's). Each body: body (any name), kind, vertices,
+faces (flat lists; a convex body needs no faces; a union also needs piece_vertices and piece_faces).
+A case without a label is certified when the file is read.
 """
 
 from __future__ import annotations
@@ -51,27 +53,27 @@ WORST_FIRST = (
 
 @dataclass(frozen=True)
 class Explained:
-    """A case, its truth, its row, and what methods said about it (rows of observations.parquet)."""
+    """A case, its truth, its row, and the answers to it (rows of observations.parquet)."""
 
     case: Case
     truth: Truth
     row: dict
     said: pd.DataFrame
-    refused: str = ""  #: why the checker does not accept the label
-    pieces: pd.DataFrame | None = (
-        None  #: its row of pieces.parquet, of a case of a run that has one
-    )
+    refused: str = ""  #: why the checker rejects the label
+    pieces: pd.DataFrame | None = None  #: the row of pieces.parquet, if there is one
 
 
 def from_run(store: Store, name: str) -> Explained:
-    """StoreError with the nearest names where the run has no such case."""
+    """A case of a run. Raises StoreError, with the most similar names, if the run has no such
+    case.
+    """
     rows = store.read("cases.parquet")
     row = rows[rows.case == name]
     if row.empty:
         raise StoreError(
-            f"The run {store.folder} has no case '{name}'{closest(name, rows.case)}. A case is"
-            " named scenario/level/index, as in the gallery of its report.html and in"
-            " cases.parquet."
+            f"The run {store.folder} has no case '{name}'{closest(name, rows.case)}. Case names"
+            " have the form scenario/level/index; the gallery of report.html and cases.parquet list"
+            " them."
         )
     bodies = store.read("bodies.parquet")
     ((case, truth),) = cases_of(
@@ -84,17 +86,17 @@ def from_run(store: Store, name: str) -> Explained:
 
 
 def refusal(query: Query, truth: Truth) -> str:
-    """Why the checker does not accept a label; "" where it does."""
+    """Why the checker rejects a label; "" if it accepts it."""
     from experiments.truth import check
 
     verdict = check(query, truth)
-    return "" if verdict.ok else given.shown(verdict.reason) or "its certificate does not show it"
+    return "" if verdict.ok else given.shown(verdict.reason) or "its certificate does not prove it"
 
 
 def _said(rows) -> pd.DataFrame:
-    """Rows of observations.parquet; ValueError where they are none."""
+    """Rows of observations.parquet. Raises ValueError if `rows` are not such rows."""
     if not isinstance(rows, list) or not all(isinstance(r, dict) for r in rows):
-        raise ValueError("observations is no list of rows")
+        raise ValueError("observations is not a list of rows")
     said = pd.DataFrame(rows, columns=COLUMNS)
     if (wrong := record.wrong(said, "observations.parquet")) is not None:
         raise ValueError(f"observations: {wrong}")
@@ -102,27 +104,29 @@ def _said(rows) -> pd.DataFrame:
 
 
 def _pieces(rows, case: Case) -> pd.DataFrame:
-    """Rows of pieces.parquet; ValueError where they are none, or of another case."""
+    """Rows of pieces.parquet. Raises ValueError if `rows` are not such rows or belong to another
+    case.
+    """
     if not isinstance(rows, list) or not all(isinstance(r, dict) for r in rows):
-        raise ValueError("pieces is no list of rows")
+        raise ValueError("pieces is not a list of rows")
     made = pd.DataFrame(rows, columns=list(record.COLUMNS[piece_truth.FILES[0]]))
     if (wrong := record.wrong(made, piece_truth.FILES[0])) is not None:
         raise ValueError(f"pieces: {wrong}")
     if (made.case != case.id).any():
-        raise ValueError("pieces are of another case")
+        raise ValueError("pieces belong to another case")
     return made.astype(dict.fromkeys(("t_lo", "t_hi", "gap"), float))
 
 
 def _check_names(case: Case, said: pd.DataFrame) -> None:
     for name in (case.id, case.scenario, *said.method):
         if not record.is_name(name):
-            raise ValueError(f"{given.shown(repr(name))[:80]} is no name")
+            raise ValueError(f"{given.shown(repr(name))[:80]} is not a valid name")
     if (said.case != case.id).any():
-        raise ValueError("observations are of another case")
+        raise ValueError("observations belong to another case")
 
 
 def from_file(path: Path) -> Explained:
-    """ConfigError where the file cannot be read, naming the field."""
+    """The case in a file. Raises ConfigError, which names the field, if it cannot be read."""
     if not path.exists():
         raise ConfigError(
             f"The case file {path} does not exist. Write one from a run with: ofg-bench explain"
@@ -158,8 +162,8 @@ def from_file(path: Path) -> Explained:
         raise ConfigError(str(error)) from error
     except KeyError as error:
         raise ConfigError(
-            f'The case file {path} lacks the field {error}. It needs "case" and "bodies": see the'
-            " head of experiments/publish/report/explain.py, or write one from a run with:"
+            f"The case file {path} lacks the field {error}. The docstring of"
+            " experiments/publish/report/explain.py lists the required fields; for an example, use:"
             " ofg-bench explain CASE --run RUN --save case.json"
         ) from error
     except (
@@ -172,7 +176,7 @@ def from_file(path: Path) -> Explained:
     ) as error:
         raise ConfigError(
             f"The case file {path} has a field of the wrong form ({given.reason(error)}). Compare"
-            " it with one written by: ofg-bench explain CASE --run RUN --save case.json"
+            " it with a file written by: ofg-bench explain CASE --run RUN --save case.json"
         ) from error
     return Explained(case, truth, case_row(case, truth, 0), said, refusal(query, truth), pieces)
 
@@ -196,8 +200,8 @@ def save(explained: Explained, path: Path) -> None:
 
 
 def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
-    """What the methods of the configuration say now, each asked in a process of its own; their
-    earlier answers are replaced.
+    """Run the methods of the configuration on the case, each in its own process. New answers
+    replace earlier ones of the same methods.
     """
     load_files(config)
     rows: list[dict] = []
@@ -231,21 +235,22 @@ def ask(explained: Explained, config: RunConfig, log: Path) -> Explained:
 
 
 def motion_words(motion: Motion) -> str:
-    """'moves by (0, 0, -2), turns by 1.5 rad about the axis (0, 0, 1) through its point (1, 0, 0)'.
+    """A motion in words, or 'is at rest'.
 
-    Or 'rests'.
+    'translates by (0, 0, -2), rotates by 1.5 rad about the axis (0, 0, 1) through its point (1, 0,
+    0)'
     """
 
     def numbers(v) -> str:
         return f"({', '.join(f'{x:.6g}' for x in v)})"
 
     if motion.rests:
-        return "rests"
-    words = [f"moves by {numbers(motion.displacement)}"] if motion.displacement.any() else []
+        return "is at rest"
+    words = [f"translates by {numbers(motion.displacement)}"] if motion.displacement.any() else []
     if motion.angle:
         point = f" through its point {numbers(motion.about)}" if motion.about.any() else ""
         words.append(
-            f"turns by {motion.angle:.6g} rad about the axis {numbers(motion.axis)}{point}"
+            f"rotates by {motion.angle:.6g} rad about the axis {numbers(motion.axis)}{point}"
         )
     return ", ".join(words)
 
@@ -274,14 +279,14 @@ def page(explained: Explained, versions: dict) -> str:
 
 
 def verdicts(explained: Explained) -> pd.DataFrame:
-    """method, outcome, time, error, detail of every method that answers the case's question, wrong
-    answers first.
+    """Columns method, outcome, time, error, detail; a row per method that answers the case's
+    question, wrong answers first.
     """
     found = outcome.judge(explained.said, pd.DataFrame([explained.row]), explained.pieces)
     found = found[~found.detail.fillna("").str.startswith("does not answer")]
     own = (found.truth == piece_truth.PIECES) & (found.detail.fillna("") == "")
     found = found.assign(
-        detail=found.detail.mask(own, "judged by CoACD's pieces of the mesh: " + found.label)
+        detail=found.detail.mask(own, "judged by the CoACD pieces of the mesh: " + found.label)
     )
     order = {name: i for i, name in enumerate(WORST_FIRST)}
     return (
@@ -292,8 +297,8 @@ def verdicts(explained: Explained) -> pd.DataFrame:
 
 
 def _body(row: dict, index: int) -> Body:
-    """ValueError, which names the body, where it is none. A name that is no digest says nothing of
-    the content.
+    """A body from its row. Raises ValueError, which names the body, if the row is not valid. The
+    content is checked against the name only if the name is a digest.
     """
     row = {"name": row["body"], "faces": [], "piece_vertices": [], "piece_faces": [], **row}
     try:
@@ -333,11 +338,11 @@ def _truth(row: dict) -> Truth:
     certificate = row.get("certificate", "{}")
     certificate = _certificate(certificate) if isinstance(certificate, str) else certificate
     if not isinstance(certificate, dict):
-        raise ValueError("certificate is no JSON object")
+        raise ValueError("certificate is not a JSON object")
     for name in ("label", "start", "end"):
         if row.get(name, "uncertain") not in record.LABELS:
             raise ValueError(
-                f"{name} is {given.shown(repr(row[name]))}, and not one of"
+                f"{name} is {given.shown(repr(row[name]))}, which is not one of"
                 f" {', '.join(record.LABELS)}"
             )
     return Truth(

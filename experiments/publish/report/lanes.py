@@ -1,4 +1,4 @@
-"""Times of a run for its page: those taken from Python, and those of the native lane."""
+"""The query times of a run for its page: from Python, and from the native benchmark."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from experiments.run.timing import FLOOR, LOST, PROBE
 
 
 def python(store: Store, rows: pd.DataFrame) -> dict:
-    """lane -> method -> {cases, ns: medians over rounds; floors: [question, faces, situation, ns]};
-    "python" where no lane is named.
+    """lane -> method -> {cases, ns: medians over rounds; build; floors: [question, faces,
+    situation, ns]}; rows without a lane belong to "python".
     """
     place = {case: i for i, case in enumerate(rows.case)}
     times = store.read("timings.parquet")
@@ -34,9 +34,9 @@ def python(store: Store, rows: pd.DataFrame) -> dict:
 
 
 def native(store: Store, labels: set[str]) -> dict:
-    """The native lane of a run that has tables/native.csv (ofg-bench native RUN).
+    """The native times of a run that has tables/native.csv (ofg-bench native RUN), else {}.
 
-    Medians over some of its certified cases, by question, situation and range of faces.
+    They are medians over some of its certified cases, by question, situation and range of faces.
     """
     if not store.has("tables", "native.csv"):
         return {}
@@ -57,6 +57,6 @@ def _native_rows(store: Store) -> pd.DataFrame:
         return pd.read_csv(path, dtype=wanted, usecols=list(wanted))
     except (ValueError, OSError) as error:
         raise StoreError(
-            f"{path} is no table of the native lane ({given.reason(error)}). Make it "
-            f"again with: ofg-bench native {store.folder}, or remove it."
+            f"{path} is not a table of native times ({given.reason(error)}). Write it again with:"
+            f" ofg-bench native {store.folder}, or remove it."
         ) from error

@@ -1,6 +1,4 @@
-"""One self-contained HTML file: the template, the style, the scripts, the libraries and the data,
-nothing from outside.
-"""
+"""Write one self-contained HTML file from the template, styles, scripts, libraries and data."""
 
 from __future__ import annotations
 
@@ -29,9 +27,10 @@ SCRIPTS = (
     "case.js",
     "gallery.js",
     "run.js",
+    "glossary.js",
     "main.js",
 )
-#: in this order: later rules overrule earlier ones
+#: in this order, as later rules override earlier ones
 STYLES = ("colours.css", "base.css", "tables.css", "gallery.css", "case.css", "screens.css")
 MARK = re.compile("@@(TITLE|STYLE|STORES|SCRIPT)@@")
 LIBRARIES = ("plotly-basic.min.js", "three.min.js")
@@ -61,4 +60,4 @@ def page(payload: dict, title: str) -> str:
         "STORES": stores,
         "SCRIPT": script,
     }
-    return MARK.sub(lambda mark: parts[mark[1]], made)  # in one pass: a mark in a title is words
+    return MARK.sub(lambda mark: parts[mark[1]], made)  # one pass, as a title may contain a mark

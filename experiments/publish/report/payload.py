@@ -1,5 +1,5 @@
-"""What the page is given: the rows of a run, column by column, and the bodies of the cases it can
-draw, in bytes.
+"""The data of the page: the rows of a run, column by column, and the bodies of the cases that it
+can draw, in bytes.
 """
 
 from __future__ import annotations
@@ -8,9 +8,6 @@ import base64
 import gzip
 import json
 import math
-from collections.abc import Iterable
-from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -27,11 +24,10 @@ from experiments.run.folder.rows import MOTION, body_row, cases_of, filled
 from experiments.run.folder.store import Store
 from experiments.run.progress import stage
 from experiments.run.timing import SIZES, situation_of, size_of
-from ofg import Body, Query
-from ofg.decomposition import kept_at
 
-from . import lanes, selection
-from .certificate import drawable
+from . import glossary, lanes
+from .gallery import gallery
+from .shapes import BYTES, Shapes
 
 CODES = {
     "right": "r",
@@ -44,17 +40,11 @@ CODES = {
     "error": "e",
     "timeout": "t",
 }
-SHOWN = 24  # cases of each kind that the gallery can draw for each method
-BYTES = 8_000_000  # of bodies, before compression: what a page may weigh
-CASES = 3_000  # that a page can draw: what its making may take
-EXACT = 5_000  # vertices up to which a body is never rounded
-# faces up to which a selection is drawn; of k = inf on a large mesh the page only says how many
-SELECTED = 2_000
 OVERLAYS = 12  # OFG configurations whose selections are embedded for one case
 
 
 def of_run(store: Store, made_tables=None) -> dict:
-    """Everything the page of a run shows; see page/data.js for its reading."""
+    """All data of the page of a run; page/data.js decodes it."""
     rows, found = filled(nesting.of(store, store.read("cases.parquet"))), outcome.outcomes(store)
     made = {
         "mode": "run",
@@ -64,6 +54,7 @@ def of_run(store: Store, made_tables=None) -> dict:
         "sizes": [name for _, name in SIZES],
         "bands": views.gap_bands(pd.Series([], dtype=float))[1],
         "scenarios": _scenarios(rows),
+        "terms": glossary.terms(),
         **_observations(found, rows),
     }
     made["methods"] = [_method(label, made["run"]["versions"]) for label in made["labels"]]
@@ -84,10 +75,10 @@ def of_case(
     refused: str = "",
     pieces: pd.DataFrame | None = None,
 ) -> dict:
-    """The same for one case: `row` is its row of cases.parquet, `observations` what methods said
-    about it, `pieces` its row of pieces.parquet if it has one.
+    """The data of the page of one case: `row` is its row of cases.parquet, `observations` the
+    answers to it, `pieces` its row of pieces.parquet, if any.
 
-    refused: why the checker does not accept its label, if it does not.
+    refused: why the checker rejects its label, or "".
     """
     rows = nesting.added(
         filled(pd.DataFrame([row])),
@@ -119,8 +110,8 @@ def of_case(
 
 
 def encode(payload: dict) -> str:
-    """JSON, gzip, base64: what page/data.js takes apart with DecompressionStream. The same bytes
-    for the same payload.
+    """JSON, gzip, base64, which page/data.js decodes with DecompressionStream. Equal payloads give
+    equal bytes.
     """
     return pack(json.dumps(_plain(payload), allow_nan=False, separators=(",", ":")).encode())
 
@@ -224,11 +215,10 @@ def _method(label: str, versions: dict) -> dict:
 
 
 def _observations(found: pd.DataFrame, rows: pd.DataFrame) -> dict:
-    """labels; outcome: of each method one letter for each case ("." where there is no row); time,
-    error, detail: sparse.
+    """labels; outcome: for each method, one letter per case ("." if there is no row); time, error,
+    detail: sparse.
 
-    truth, sparse: the label and whether it can tunnel, where a method is judged by pieces and not
-    by the case.
+    truth, sparse: the label and whether the method can tunnel, if it is judged by pieces.
     """
     place = {case: i for i, case in enumerate(rows.case)}
     labels = list(dict.fromkeys(found.method))
@@ -278,14 +268,14 @@ def _table(table, found: pd.DataFrame) -> dict:
 
 
 def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
-    """Bodies, certificates and OFG's selections of the cases that can be drawn: first those of the
-    gallery, then the rest, while there is room.
+    """Bodies, certificates and OFG's selections of the cases that can be drawn: first the cases of
+    the gallery, then the others while there is room.
     """
     wanted = gallery(found)
     order = list(dict.fromkeys([*wanted, *rows.case]))
     place = {case: i for i, case in enumerate(rows.case)}
     known = {case.id: (case, truth) for case, truth in cases_of(rows, store.read("bodies.parquet"))}
-    shapes, ours = Shapes(BYTES), found[found.method.str.split().str[0] == "ofg"]
+    shapes, ours = Shapes(BYTES), found[found.method.map(name_of) == "ofg"]
     first = ours.method.iloc[:1].tolist()
     wrong = ours[ours.wrong | (ours.error > 0)].groupby("case", sort=False).method.agg(list)
     with stage("draw cases for the page", len(order)) as advance:
@@ -297,133 +287,10 @@ def _shapes(store: Store, rows: pd.DataFrame, found: pd.DataFrame) -> dict:
     return shapes.packed()
 
 
-def gallery(found: pd.DataFrame) -> dict[str, list[str]]:
-    """case -> methods that it is shown for.
-
-    Of each method up to SHOWN misses, false alarms and late times, spread over scenarios and
-    levels; of late times the latest.
-    """
-    wanted: dict[str, list[str]] = {}
-    for label, part in found.groupby("method", sort=False):
-        late = part[part.error > 0].sort_values("error", ascending=False)
-        kinds = [
-            _spread(part[part.outcome == "miss"]),
-            _spread(part[part.outcome == "false alarm"]),
-            late,
-        ]
-        for case in dict.fromkeys(c for kind in kinds for c in kind.case[:SHOWN]):
-            wanted.setdefault(case, []).append(label)
-    return wanted
-
-
-def _spread(part: pd.DataFrame) -> pd.DataFrame:
-    return part.assign(turn=part.groupby(["scenario", "level"]).cumcount()).sort_values(
-        ["turn", "scenario", "level"], kind="stable"
-    )
-
-
-class Shapes:
-    """Collects bodies (each once), certificates and selections until `room` bytes are full."""
-
-    def __init__(self, room: float, anew: bool = False):
-        """anew: meshes may be decomposed, which can take a minute each; else OFG's pieces are shown
-        where they are kept from the run.
-        """
-        self.room, self.anew, self.bytes = room, anew, bytearray()
-        self.bodies, self.drawn, self.proofs, self.ofg = [], {}, {}, {}
-        self._known: dict[str, int] = {}
-        self._decomposed: dict[str, Body] = {}
-
-    def add(self, place: int, case, truth, labels: Iterable[str], most: int) -> None:
-        q = case.query
-        cost = sum(
-            _cost(body)
-            for body in {b.digest: b for b in (q.a, q.b)}.values()
-            if body.digest not in self._known
-        )
-        if len(self.bytes) + cost > self.room or len(self.drawn) == CASES:
-            return
-        self.drawn[place] = [self._body(q.a), self._body(q.b)]
-        self.proofs[place] = drawable(truth.certificate)
-        for label in list(labels)[:most]:
-            made = self._trace(q, label, truth)
-            if made:
-                self.ofg.setdefault(place, {})[label] = made
-
-    def packed(self) -> dict:
-        return {
-            "bodies": self.bodies,
-            "drawn": self.drawn,
-            "proofs": self.proofs,
-            "ofg": self.ofg,
-            "bytes": bytes(self.bytes),
-        }
-
-    def _trace(self, query: Query, label: str, truth) -> dict | None:
-        """What OFG looked at; None where the method refuses the query or its pieces are not kept.
-        "bodies" where it saw pieces of a mesh.
-        """
-        (method,) = registry.make(label)
-        options = {**method.options()}
-        if method.decomposes:
-            if not self.anew and not all(
-                body.kind != "mesh" or kept_at(body).is_file() for body in (query.a, query.b)
-            ):
-                return None
-            try:
-                pieces = [self._pieces(query.a), self._pieces(query.b)]
-            except ofg.BodyError:
-                return None
-            query = replace(query, a=pieces[0], b=pieces[1])
-        made = selection.trace(query, options, truth.t_hi)
-        for side in ("a", "b"):
-            made[f"n{side}"] = len(made[side])
-            made[side] = made[side] if len(made[side]) <= SELECTED else []
-        seen = [query.a.digest, query.b.digest]
-        if any(d not in self._known for d in seen):
-            made["bodies"] = [self._body(query.a), self._body(query.b)]
-        else:
-            made["bodies"] = [self._known[d] for d in seen]
-        return made
-
-    def _pieces(self, body: Body) -> Body:
-        if body.digest not in self._decomposed:
-            self._decomposed[body.digest] = ofg.decompose(body)
-        return self._decomposed[body.digest]
-
-    def _body(self, body: Body) -> int:
-        if body.digest in self._known:
-            return self._known[body.digest]
-        vertices, faces = body.vertices, body.faces
-        exact = np.array_equal(vertices, vertices.astype(np.float32))
-        kind = "f4" if exact or len(vertices) > EXACT else "f8"
-        index = "u2" if len(vertices) < 65536 else "u4"
-        entry: dict[str, Any] = {
-            "name": body.name,
-            "kind": body.kind,
-            "v": [self._put(vertices.astype("<" + kind)), kind, len(vertices)],
-            "f": [self._put(faces.astype("<" + index)), index, len(faces)],
-            "rounded": kind == "f4" and not exact,
-        }
-        if body.kind == "union":
-            entry["pieces"] = [[len(p.vertices), len(p.faces)] for p in body.pieces]
-        self.bodies.append(entry)
-        self._known[body.digest] = len(self.bodies) - 1
-        return self._known[body.digest]
-
-    def _put(self, array: np.ndarray) -> int:
-        self.bytes.extend(b"\0" * (-len(self.bytes) % 8))
-        start = len(self.bytes)
-        self.bytes.extend(array.tobytes())
-        return start
-
-
-def _cost(body: Body) -> int:
-    return 24 * len(body.vertices) + 6 * len(body.faces)
-
-
 def _plain(value):
-    """JSON has no NaN: None in its place; numpy's numbers become Python's."""
+    """The value with NaN and infinities replaced by None, as JSON has neither, and numpy numbers by
+    Python's.
+    """
     if isinstance(value, dict):
         return {str(k): _plain(v) for k, v in value.items()}
     if isinstance(value, (list, tuple, np.ndarray)):

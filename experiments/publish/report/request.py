@@ -1,4 +1,4 @@
-"""What `ofg-bench explain` is asked to show: a case of a run or of a file, and whom to ask."""
+"""The request of `ofg-bench explain`: a case of a run or a file, and the methods to run on it."""
 
 from __future__ import annotations
 
@@ -17,17 +17,18 @@ from experiments.run.folder.store import Store
 from .explain import Explained, ask, digits, from_file, from_run, motion_words, page, save, verdicts
 
 LATE = (
-    "Error: of the time of impact beyond its certified bracket, as a share of the step; positive is"
-    " late."
+    "Error of the time of impact outside its certified bracket, as a share of the step; late errors"
+    " are positive."
 )
 
 
 @dataclass(frozen=True)
 class Request:
-    """name, store: a case and its run, opened; or file: the case in a file of its own.
+    """name, store: a case and its opened run; or file: a file with one case.
 
-    methods: labels to ask, by default those of the run or file. method_files: files with methods of
-    the user. anew: ask although answers are there. trust: run the files that the run names.
+    methods: labels to run, by default those of the run or file. method_files: files with the user's
+    methods. anew: run the methods even if there are answers. trust: execute the Python files that
+    the run names.
     """
 
     name: str | None
@@ -39,15 +40,15 @@ class Request:
     trust: bool = False
 
     def explained(self) -> tuple[Explained, dict]:
-        """The case with the answers that are wanted, and the versions of what gave them.
+        """The case with the requested answers, and the versions of the engines that gave them.
 
-        Raises ConfigError for a method of a file that the run names and that is not trusted.
+        Raises ConfigError for a method whose file the run names but which is not trusted.
         """
         found, config, versions = self._of_run() if self.store else self._of_file()
         if strange := [s for s in self.methods if declared.recorded(name_of(s))]:
             raise ConfigError(
-                f"The method '{strange[0]}' is of a file that the run names, which is not run; pass"
-                " --trust to run it, or its file with --methods."
+                f"The method '{strange[0]}' is defined in a file that the run names, which is not"
+                " executed. Pass --trust to execute it, or pass the file with --methods."
             )
         if self.anew or not len(found.said):
             with tempfile.TemporaryDirectory() as folder:
@@ -70,7 +71,7 @@ class Request:
         return found, self._asking(config, known), {}
 
     def _asking(self, config: RunConfig, known: tuple[str, ...]) -> RunConfig:
-        """The configuration with the methods that are to be asked."""
+        """The configuration with the methods to run."""
         return config.model_copy(
             update={
                 "methods": self.methods or known or load("quick").methods,
@@ -83,7 +84,7 @@ class Request:
 def show(
     request: Request, out: Path | None, save_to: Path | None, print_grid: Callable, say: Callable
 ) -> None:
-    """Write the case's page into `out`, its file into `save_to`, and print what methods said."""
+    """Write the case's page to `out` and its file to `save_to`, and print all answers."""
     found, versions = request.explained()
     path = out or Path(f"{found.case.id.replace('/', '-')}.html")
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -95,19 +96,19 @@ def show(
     for r in verdicts(found).itertuples():
         numbers = (digits(r.time), digits(r.error)) if sweep else ()
         rows.append((r.method, r.outcome, *numbers, r.detail or ""))
-    columns = ("method", "verdict", *times, "detail")
+    columns = ("method", "outcome", *times, "detail")
     print_grid(_title(found), columns, rows, LATE if sweep else "")
     if sweep:
         say(f"A {motion_words(query.motion)}; B {motion_words(query.motion_b)}.")
     if save_to:
         save(found, save_to)
-        said = f"The case is in {save_to}; show it anywhere with: ofg-bench explain --file"
-        say(given.markup(f"{said} {save_to}"))
-    say(given.markup(f"The page is {path}."))
+        said = f"Wrote the case to {save_to}. Show it with: ofg-bench explain --file {save_to}"
+        say(given.markup(said))
+    say(given.markup(f"Wrote {path}."))
 
 
 def _title(found: Explained) -> str:
-    """The case with its truth: certified, stated only, or uncertain."""
+    """The case and its label: certified, only stated, or uncertain."""
     truth = found.truth
     label = f"certified {truth.label}" if truth.label != "uncertain" else "uncertain"
     if found.refused:
@@ -121,6 +122,6 @@ def _title(found: Explained) -> str:
 
 
 def _strange(spec: str) -> bool:
-    """Is it no method that is loaded here?"""
+    """Whether no loaded method has this name."""
     name = name_of(spec)
     return name not in registry.methods() or declared.recorded(name)

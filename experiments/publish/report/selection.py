@@ -1,8 +1,8 @@
-"""OFG's selections, remade in numpy from the published steps for display; the core alone says what
-OFG answered.
+"""OFG's selections, recomputed in numpy from the published steps for display. The answer itself
+always comes from the core.
 
-A test asks the core about the selected faces alone, all against all, and finds the answer that OFG
-gave.
+A test runs the core on the selected faces only, all against all, and compares its answer with
+OFG's.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ import trimesh
 import ofg
 from ofg import Body, Motion, Pose, Query
 
-# shares of the step after the impact at which faces are looked for that meet
+# shares of the step after the impact at which intersecting faces are searched for
 AFTER = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 0.1)
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """One piece as OFG sees it; faces of the piece i are first, first + 1, ... among those of the
-    whole body.
+    """One piece as used by OFG; its faces have the indices first, first + 1, ... in the whole
+    body.
     """
 
     body: Body
@@ -44,18 +44,19 @@ class Mesh:
 
 
 def trace(query: Query, options: dict, impact: float = nan) -> dict:
-    """What OFG with these options (those of ofg.ask; bodies in pieces already if it is to see
-    pieces) looks at; JSON-able values.
+    """OFG's answer and selections for a query, as values that JSON can store.
 
-    impact: the certified time of impact of a hit, NaN without one. Of several parts of the step
-    (repair "arcs") the one that it lies in is shown.
+    options: those of ofg.ask; bodies must already be in pieces if OFG is to use pieces. impact: the
+    certified time of impact of a hit, else NaN. If the repair "arcs" splits the step into parts,
+    the part that contains it is shown.
 
     hit, time, found: the answer. met: the faces that met, [a, b] or None. stopped: "" or the step
-    that ended it before a face was tested. pieces: those asked. window: [from, to], one of `parts`.
-    a, b: selected faces, nearest first. selections: at how many times they were made. vertices_b:
-    virtual edges of B's vertices too. should: faces that do meet at `time`, and their places in the
-    order of all faces by distance (None where they belong to a piece that was not asked); None
-    where no surfaces meet. All faces are indices into those of the whole body.
+    that ended the query before a face was tested. pieces: those tested. window: [from, to], one of
+    `parts`. a, b: selected faces, nearest first. selections: the number of times at which faces
+    were selected. vertices_b: whether B's vertices have virtual edges too. should: faces that
+    intersect at `time`, and their places in the order of all faces by distance (None if they belong
+    to a piece that was not tested); None if no surfaces intersect. All faces are indices into the
+    faces of the whole body.
     """
     answer = ofg.ask(query, **options)
     chosen = _Options(**options)
@@ -112,7 +113,7 @@ def select(
 
 
 class _Options:
-    """The options of ofg.ask that bear on selections, repairs resolved."""
+    """The options of ofg.ask that affect selections, with repairs resolved."""
 
     def __init__(self, k=8, repairs="none", **own):
         o = {**ofg.repair_options(repairs), **own}
@@ -130,8 +131,8 @@ class _Options:
 
 
 def _pieces(query: Query, chosen: _Options, answer) -> tuple[Mesh, Mesh]:
-    """The pieces that the core says it asked; where it asked all pairs and none met, the pair at
-    the object level.
+    """The pieces that the core reports as tested; if it tested all pairs without a hit, the pair
+    chosen at the object level.
     """
     ids = list(answer.pieces)
     if chosen.concave == "all-pairs" and not answer.hit:
@@ -153,12 +154,12 @@ def _relative(query: Query, t: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _poses(query: Query, t: float) -> tuple[Pose, Pose]:
-    """Where A and B are at time t."""
+    """The poses of A and B at time t."""
     return query.motion.pose_at(query.pose_a, t), query.motion_b.pose_at(query.pose_b, t)
 
 
 def _times(query: Query, a: Mesh, b: Mesh, window, chosen: _Options) -> tuple[list[float], float]:
-    """When selections are made, and how far (in time) the window goes from the nearest of them."""
+    """The times of the selections, and the largest distance in time to the nearest of them."""
     t0, t1 = window
     if query.question == "overlap" or chosen.selections == 1:
         return [t0], t1 - t0
@@ -179,12 +180,12 @@ def _between(query: Query, a: Mesh, b: Mesh, t: float) -> np.ndarray:
 
 
 def _displacement(query: Query) -> np.ndarray:
-    """A's, relative to B."""
+    """The displacement of A relative to B."""
     return query.motion.displacement - query.motion_b.displacement
 
 
 def _arm(point: np.ndarray, motion: Motion) -> float:
-    """From the point about which a body turns to another of its points."""
+    """Distance from a body's rotation centre to another of its points."""
     return np.linalg.norm(point - motion.about)
 
 
@@ -194,7 +195,7 @@ def _speed(query: Query, distance_a: float, distance_b: float, apart: float) -> 
 
 
 def _distances(mesh: Mesh, point: np.ndarray, nearest: str) -> np.ndarray:
-    """Squared, from a point of the piece's frame to each face: its centre or itself."""
+    """Squared distances from a point in the piece's frame to each face, or to its centroid."""
     corners = mesh.corners
     if nearest == "centroid":
         d = corners.mean(axis=1) - point
@@ -232,8 +233,8 @@ def _sphere(mesh: Mesh, faces: np.ndarray) -> tuple[np.ndarray, float]:
 
 
 def _parts(query: Query, a: Mesh, b: Mesh, chosen: _Options) -> int:
-    """Into how many equal parts the repair "arcs" halves the step: as stray.hpp bounds what chords
-    stray by.
+    """The number of equal parts into which the repair "arcs" splits the step, by the bound in
+    stray.hpp on the deviation of chords from paths.
     """
     wa, wb = abs(query.motion.angle), abs(query.motion_b.angle)
     if not chosen.arc_tolerance or not wa + wb:
@@ -255,12 +256,12 @@ def _parts(query: Query, a: Mesh, b: Mesh, chosen: _Options) -> int:
 
 
 def _bend(own: float, other: float, lever: float, slide: float, apart: float) -> float:
-    """Bound on the second derivative of a point's path, seen from the other body."""
+    """Bound on the second derivative of a point's path in the frame of the other body."""
     return own**2 * lever + 2 * other * (slide + own * lever) + other**2 * apart
 
 
 def _lever(mesh: Mesh, motion: Motion) -> float:
-    """No vertex is farther from the point that the body turns about."""
+    """Upper bound on the distance of a vertex from the body's rotation centre."""
     about = motion.about if motion.angle else np.zeros(3)
     return min(
         mesh.body.radius + np.linalg.norm(about), mesh.radius + np.linalg.norm(mesh.centre - about)
@@ -268,14 +269,14 @@ def _lever(mesh: Mesh, motion: Motion) -> float:
 
 
 def _pivots(query: Query) -> np.ndarray:
-    """From the point that B turns about to the one that A turns about, at the start."""
+    """Vector from B's rotation centre to A's at the start."""
     sides = ((query.pose_a, query.motion), (query.pose_b, query.motion_b))
     at_a, at_b = (p.position + (p.rotation @ m.about if m.angle else 0) for p, m in sides)
     return at_a - at_b
 
 
 def _stopped(query, a, b, fa, fb, moving, chosen) -> str:
-    """Which sphere test, if any, answered "clear" before a face was looked at."""
+    """The sphere test that answered "clear" before a face was tested, or ""."""
     start, end = _between(query, a, b, 0.0), _between(query, a, b, 1.0 if moving else 0.0)
     step = end - start if moving and chosen.broad == "swept" else np.zeros(3)
     along = step @ step
@@ -294,7 +295,7 @@ def _stopped(query, a, b, fa, fb, moving, chosen) -> str:
 
 
 def _should(query: Query, a: Mesh, b: Mesh, chosen: _Options, window, impact: float) -> dict | None:
-    """Two faces that meet at the impact or soon after, and their places in the order by
+    """Two faces that intersect at the impact or soon after, and their places in the order by
     distance.
     """
     for later in AFTER if query.question != "overlap" else (0.0,):

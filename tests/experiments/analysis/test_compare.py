@@ -189,5 +189,5 @@ def test_the_command_says_it_and_exits_accordingly(run, tmp_path):
     same = ask(reference, run.folder)
     assert same.returncode == 0 and "Accuracy is identical" in same.stdout, same.stderr
     moved = ask(changed(run, tmp_path / "moved", change=set_at("hit", flipped)).folder, run.folder)
-    assert moved.returncode == 1 and "NOT identical: 1 of 27 answers moved" in moved.stdout
+    assert moved.returncode == 1 and "NOT identical: 1 of 27 answers changed" in moved.stdout
     assert ask(reference, tmp_path / "nowhere").returncode == 2

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from experiments.analysis import views
-from experiments.analysis.tables.labels import touching_table
+from experiments.analysis.tables import labels
 from experiments.cases import families
 from experiments.run.timing import SIZES
 from ofg import QUESTIONS
@@ -90,7 +90,7 @@ def test_the_heads_of_touching_cases_are_defined():
             "tunnelled": [False],
         }
     )
-    table = touching_table(found, "overlap")
+    table = labels.touching_table(found, "overlap")
     assert len(table.text) == 1 and set(table.text.columns) <= TERMS
 
 

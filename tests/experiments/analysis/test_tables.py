@@ -241,7 +241,7 @@ def test_single_precision_is_marked_where_cases_are_not_rounded_to_it():
         plain, marked = make(asked_in("float32")), make(asked_in("float64"))
         assert set(plain.text.method) == {"mujoco", "fcl-convex"} and "\u2020" not in plain.caption
         assert set(marked.text.method) == {"mujoco \u2020", "fcl-convex"}
-        assert "\u2020: computes or holds bodies in single precision" in marked.caption
+        assert "\u2020: the method computes or stores bodies in single" in marked.caption
         assert set(marked.numbers.method) == {"mujoco", "fcl-convex"}
         check_latex(
             latex(marked).replace(f"{{tab:{marked.name}}}", "{tab:name}"),
@@ -280,4 +280,4 @@ def test_the_truth_table_counts_what_touches_where_there_is_any():
     )
     run.cases = run.cases.assign(touching=run.cases.case == "d")
     table = labels.truth_table(run)
-    assert table.text.touching.tolist() == ["1"] and "in no rate" in table.caption
+    assert table.text.touching.tolist() == ["1"] and "enter no rate" in table.caption

@@ -41,11 +41,11 @@ def chosen(**more):
         ({"methods": ["ofg k=4,4"]}, "methods.0 'ofg k=4,4' names 'ofg k=4' more than once"),
         (
             {"methods": ["ofg k=4,8", "ofg"]},
-            "methods.1 'ofg' names 'ofg k=8', which methods.0 'ofg k=4,8' names too",
+            "methods.1 'ofg' names 'ofg k=8', as does methods.0 'ofg k=4,8'",
         ),
         (
             {"optional_methods": ["fcl-convex"]},
-            "optional_methods.0 .*which methods.0 'fcl-convex' names",
+            "optional_methods.0 .*as does methods.0 'fcl-convex'",
         ),
         ({"scenarios": [DEEP, DEEP]}, "scenarios names 'deep at level .*' more than once"),
         ({"scenarios": [{**DEEP, "name": "dep"}]}, "scenarios.0: .*did you mean deep"),
@@ -56,7 +56,7 @@ def chosen(**more):
         ({"scenarios": [{"name": "thin_wall", "cases": 1, "levels": [3]}]}, "has no level 3"),
         (
             {"timing": {"reference": "fcl"}},
-            "timing.reference 'fcl' is no method of the run; it has fcl-convex",
+            "timing.reference 'fcl' is not a method of the run; the methods are fcl-convex",
         ),
     ],
 )

@@ -118,7 +118,7 @@ def test_an_update_makes_everything_again(stopped, reference, monkeypatch, capfd
     monkeypatch.setattr(runner, "report", lambda store: asked.extend(names(store.folder)))
     runner.run(CONFIG, stopped, workers=2)
     assert len(set(asked) - before) == len(before) and digests(stopped) == reference
-    assert "begun with another state of the code" in " ".join(capfd.readouterr().err.split())
+    assert "with a different version of the code" in " ".join(capfd.readouterr().err.split())
 
 
 def test_a_changed_file_of_the_readers_own_is_refused(tmp_path):
@@ -140,7 +140,7 @@ def test_a_finished_run_says_that_nothing_was_run(tmp_path, capfd):
     runner.run(CONFIG, tmp_path / "run", workers=2)
     capfd.readouterr()
     assert runner.run(CONFIG, tmp_path / "run", workers=2)
-    assert "is finished, nothing was run" in " ".join(capfd.readouterr().err.split())
+    assert "already finished; only its tables" in " ".join(capfd.readouterr().err.split())
 
 
 @pytest.mark.parametrize("size", [2_000, 20_000])

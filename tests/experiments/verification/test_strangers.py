@@ -80,7 +80,7 @@ def said(jobs, folder: Path) -> list[dict]:
         assert not result["trace"], f"{result['words']}\n{result['trace']}"
         assert result["code"] in (0, 1, 2) and "Traceback" not in result["err"], result
         # the net under the command line
-        assert "does not fit together" not in result["err"], result
+        assert "are inconsistent" not in result["err"], result
     return found
 
 

@@ -1,4 +1,4 @@
-// The leaderboard: every method that answers any of the chosen cases.
+// The leaderboard: every method that answers any of the filtered cases.
 function drawBoard() {
   const rows = [],
     silent = [];
@@ -56,7 +56,7 @@ function drawBoard() {
     },
     {
       title: "Wrong",
-      note: "misses and false alarms of the certified cases answered, 95 % Wilson interval",
+      note: "misses and false alarms, of the certified cases answered; 95 % Wilson interval",
       key: (x) => rate(x.r.wrong, x.r.judged),
       cell: (x) => [
         bar(rate(x.r.wrong, x.r.judged), wilson(x.r.wrong, x.r.judged)),
@@ -65,27 +65,27 @@ function drawBoard() {
     },
     {
       title: "Misses",
-      note: "certified hits answered clear",
+      note: "certified hits answered clear (false negatives), of the certified hits answered",
       key: (x) => rate(x.r.misses, x.r.hits),
       cell: (x) => count(x, x.r.misses, x.r.hits, "miss"),
     },
     {
       title: "False alarms",
-      note: "certified clears answered hit",
+      note: "certified clear cases answered hit (false positives), of those answered",
       key: (x) => rate(x.r.alarms, x.r.clears),
       cell: (x) => count(x, x.r.alarms, x.r.clears, "false alarm"),
     },
     {
       title: "Beyond",
-      note: "wrong by more than the tolerance that the method's documentation states",
+      note: "wrong answers outside the method's documented tolerance",
       key: (x) => rate(x.r.beyond, x.r.judged),
       cell: (x) => count(x, x.r.beyond, x.r.judged, "beyond"),
     },
     {
       title: "Contained",
       note:
-        "hits of a body inside another whose surfaces do not meet: no test of surfaces can see " +
-        "them, and they are in no rate",
+        "hits of a body inside another whose surfaces do not meet; a test of surfaces cannot " +
+        "detect them, and they enter no rate",
       key: (x) => x.r.contained,
       cell: (x) =>
         x.r.contained
@@ -94,15 +94,15 @@ function drawBoard() {
     },
     sweep && {
       title: "Tunnelled",
-      note: "misses of sweeps whose start and end are both certified clear",
+      note: "misses of hit sweeps that start and end clear",
       key: (x) => rate(x.r.tunnelled, x.r.canTunnel),
       cell: (x) => count(x, x.r.tunnelled, x.r.canTunnel, "tunnelled"),
     },
     sweep && {
       title: "Time error",
       note:
-        "median and latest error of the time of impact beyond its certified bracket, as a " +
-        "share of the step",
+        "median and largest late error of the time of impact outside its certified bracket, as " +
+        "a share of the step",
       key: (x) => x.r.medianError,
       cell: (x) =>
         x.r.timed
@@ -142,7 +142,7 @@ function drawBoard() {
       title: "Time, µs",
       note:
         "net (gross): median over the timed cases, with a distribution-free 95 % interval of " +
-        "the gross; net is without the method's floor",
+        "gross; net is gross less the method's floor",
       key: (x) => x.cost?.net,
       cell: (x) =>
         x.cost?.bins
@@ -173,14 +173,14 @@ function drawBoard() {
       ? el(
           "p",
           { class: "note" },
-          `${plural(silent.length, "method")} of the run answer none of these cases and are ` +
-            `not listed: ${silent.join(", ")}.`,
+          `${plural(silent.length, "method")} of the run answered none of these cases: ` +
+            `${silent.join(", ")}.`,
         )
       : "",
   );
 }
 
-// A rate as a bar with its interval as a whisker; the numbers stand beside it.
+// A rate as a bar, with its interval as a whisker.
 function bar(rate, [low, high]) {
   return el(
     "span",
@@ -206,7 +206,7 @@ const link = (to, text, title) =>
     text,
   );
 
-// A colour for each engine; there are nine.
+// A colour for each engine.
 const PALETTE = Array.from({ length: 10 }, (_, i) => `var(--c${i})`);
 function engineColour(engine) {
   const engines = [...new Set(D.methods.map((m) => m.engine))];

@@ -1,4 +1,4 @@
-// One case: its bodies moving, its certificate, what every method said, what OFG looked at.
+// One case: its bodies in motion, its certificate, all answers and OFG's selections.
 let openView = null;
 
 async function caseView(root, i, method) {
@@ -14,7 +14,7 @@ async function caseView(root, i, method) {
     tabindex: "0",
     class: "stage",
     "aria-label":
-      "The two bodies in 3D. Arrow keys turn, plus and minus go closer and away, 0 shows all.",
+      "The two bodies in 3D. The arrow keys rotate, plus and minus zoom, and 0 shows both bodies.",
   });
   const said = el("p", { class: "said", role: "status" }),
     legend = el("ul", { class: "legend" }),
@@ -74,8 +74,8 @@ async function caseView(root, i, method) {
         el(
           "p",
           {},
-          "The bodies of this case are not in this page, to keep it small. Its own page, " +
-            "with everything:",
+          "The bodies of this case are not included, to keep this file small. To write a page " +
+            "with them:",
         ),
         el("code", {}, `ofg-bench explain ${c.case[i]} --run ${D.run.name || "RUN"}`),
       );
@@ -94,7 +94,7 @@ async function caseView(root, i, method) {
             c.label[i] === "hit" && c.start[i] === "clear" ? jump(c.t_lo[i], "last clear") : null,
             c.label[i] === "hit" ? jump(c.t_hi[i], "impact") : null,
             D.time[D.method.get(method)]?.has(i)
-              ? jump(D.time[D.method.get(method)].get(i), `as ${method} has it`)
+              ? jump(D.time[D.method.get(method)].get(i), `time of ${method}`)
               : null,
             jump(1, "end"),
           ),
@@ -105,9 +105,9 @@ async function caseView(root, i, method) {
         "div",
         { class: "toggles" },
         check("plane", "certificate"),
-        check("seeThrough", "see through"),
+        check("seeThrough", "transparent"),
         moving ? check("ghosts", "start and end") : null,
-        labels.length ? check("selections", "OFG") : null,
+        labels.length ? check("selections", "OFG's selections") : null,
       )
     : null;
   root.replaceChildren(
@@ -155,7 +155,7 @@ async function caseView(root, i, method) {
     ofgBox.replaceChildren(
       ...(labels.length
         ? [
-            el("h3", {}, "What OFG looked at"),
+            el("h3", {}, "OFG's selections"),
             labels.length > 1
               ? select("Configuration", labels, label, look)
               : el("p", { class: "note" }, label),
@@ -170,7 +170,7 @@ async function caseView(root, i, method) {
         ["--plane", "separating plane", Boolean(D.proofs[i]?.clear)],
         [
           "--met",
-          [D.proofs[i]?.hit ? "common point" : "", x?.met ? "faces that met, by OFG" : ""]
+          [D.proofs[i]?.hit ? "common point" : "", x?.met ? "faces that OFG found to meet" : ""]
             .filter(Boolean)
             .join(", "),
           D.proofs[i]?.hit || x?.met,
@@ -203,7 +203,8 @@ async function caseView(root, i, method) {
     try {
       scene = new BodyScene(canvas);
     } catch (error) {
-      canvas.replaceWith(el("p", { class: "notice" }, `No 3D here: ${error.message}`));
+      const reason = `3D graphics are not available: ${error.message}`;
+      canvas.replaceWith(el("p", { class: "notice" }, reason));
     }
     canvas.addEventListener("keydown", (e) => {
       const turn = {

@@ -1,6 +1,6 @@
 "use strict";
-// The run, decoded: D.cases holds columns, D.outcome one letter for each method and case. Every
-// count on the page is a count of letters.
+// The decoded run: D.cases contains columns, D.outcome one letter per method and case. Every count
+// on the page is a count of these letters.
 let D, BYTES;
 
 async function inflate(id) {
@@ -32,8 +32,8 @@ async function readData() {
   });
 }
 
-// What the answer of method m is judged by: the case's truth, or that of the pieces that the method
-// put in place of a mesh.
+// The truth by which the answer of method m is judged: that of the case, or that of the pieces by
+// which the method replaces a mesh.
 function truthOf(i, m) {
   return D.truth[m]?.get(i) || { label: D.cases.label[i], canTunnel: D.canTunnel[i] };
 }
@@ -46,7 +46,7 @@ function library(name) {
         const script = document.createElement("script");
         script.src = URL.createObjectURL(new Blob([content], { type: "text/javascript" }));
         script.onload = done;
-        script.onerror = () => fail(new Error(`${name} could not be started from inside the page`));
+        script.onerror = () => fail(new Error(`the browser did not run the embedded ${name}`));
         document.head.append(script);
       }),
   );
@@ -111,28 +111,28 @@ const KINDS = {
 };
 const KIND_WORDS = {
   all: "all cases",
-  asked: "asked",
+  asked: "all cases of its questions",
   wrong: "wrong answers",
   judged: "judged",
   "judged hit": "judged hits",
-  "judged clear": "judged clears",
+  "judged clear": "judged clear cases",
   answered: "answered",
   failed: "crashed or hung",
   tunnelled: "tunnelled",
   timed: "times of impact",
   late: "late times",
   early: "early times",
-  clocked: "timed by the clock",
+  clocked: "with query time",
   miss: "misses",
   "can tunnel": "can tunnel",
   "false alarm": "false alarms",
-  beyond: "wrong beyond the method's own tolerance",
-  within: "wrong within the method's own tolerance",
-  contained: "contained: no test of surfaces can see them",
-  touching: "touching: neither answer is wrong",
+  beyond: "wrong outside the method's tolerance",
+  within: "wrong within the method's tolerance",
+  contained: "contained (in no rate)",
+  touching: "touching (neither answer is wrong)",
   right: "right",
   "no label": "no certified label",
-  unsupported: "not supported",
+  unsupported: "unsupported",
   error: "errors",
   timeout: "timeouts",
 };

@@ -1,4 +1,4 @@
-// One choice of cases for the whole page; who shows figures listens.
+// The filter of the cases for the whole page; every view that shows counts registers as a listener.
 const F = {
   question: "",
   sizes: "",
@@ -9,7 +9,7 @@ const F = {
   shared: "",
   lane: "",
 };
-// Share of the cases that a method answers, or it does not decide which are common: views.LEAST.
+// Methods that answer a smaller share of the cases do not restrict the common cases: views.LEAST.
 const LEAST = 0.5;
 const listeners = [];
 let subset = [];
@@ -39,7 +39,7 @@ function refilter(changes = {}) {
   for (const listen of listeners) listen();
 }
 
-// The cases that every method answered which answers at least half of them.
+// The cases answered by every method that answers at least half of them.
 function shared(among) {
   const answers = (m, i) => ANSWERED.has(D.outcome[m][i]);
   const asked = D.labels
@@ -112,7 +112,7 @@ function drawFilters() {
             "Cases",
             [
               ["", "all"],
-              ["common", "answered by all"],
+              ["common", "common"],
             ],
             F.shared,
             (v) => refilter({ shared: v }),
@@ -141,7 +141,7 @@ function drawFilters() {
                   shared: "",
                 }),
             },
-            "Clear",
+            "Reset",
           )
         : null,
     ].filter(Boolean),
@@ -153,7 +153,7 @@ function uncertainWords() {
   const n = subset.filter((i) => D.cases.label[i] === "uncertain").length;
   const touching = subset.filter((i) => D.cases.touching[i]).length;
   return (
-    (n ? `, ${n} without a certified label (in no rate)` : "") +
+    (n ? `, ${n} uncertain (in no rate)` : "") +
     (touching ? `, ${touching} touching (in no rate)` : "")
   );
 }

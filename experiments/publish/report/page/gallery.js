@@ -1,5 +1,5 @@
-// The cases behind a choice: the misses, false alarms and late times of one method, or those of any
-// cell of the page.
+// The gallery: the misses, false alarms and late times of one method, or the cases of any cell of
+// the page.
 const PAGE = 24;
 const G = { method: "", kind: "", more: {}, shown: PAGE, list: [] };
 const GALLERY_KINDS = [
@@ -99,7 +99,7 @@ function drawGallery() {
       el(
         "div",
         { class: "controls" },
-        select("Method", [["", "any"], ...labels.map((l) => [l, l])], G.method, (v) =>
+        select("Method", [["", "all"], ...labels.map((l) => [l, l])], G.method, (v) =>
           change({ method: v, kind: v ? G.kind : "all" }),
         ),
         G.method
@@ -163,9 +163,9 @@ function drawGallery() {
         ? el(
             "p",
             { class: "note" },
-            `${plural(undrawn(), "case")} of these without bodies in this page (it holds ` +
-              "those of up to 24 cases of each kind for each method, and more while there is " +
-              "room); ofg-bench explain shows any of them.",
+            `The bodies of ${plural(undrawn(), "case")} are not included. This file contains ` +
+              "those of up to 24 cases of each kind for each method, and of further cases while " +
+              "there is room; ofg-bench explain shows every case.",
           )
         : null,
     ].filter(Boolean),
@@ -176,7 +176,7 @@ function drawGallery() {
 
 const undrawn = () => G.list.filter((i) => !D.drawn[i]).length;
 
-// One of each scenario and level in turn, so that the first cards differ.
+// Takes one case of each scenario and level in turn, so that the first cards differ.
 function spread(list) {
   const turn = new Map(),
     c = D.cases;
@@ -209,7 +209,7 @@ function card(i) {
       },
       D.drawn[i]
         ? el("canvas", { width: "300", height: "190", "aria-hidden": "true" })
-        : el("span", { class: "no-picture" }, "bodies not in this page"),
+        : el("span", { class: "no-picture" }, "bodies not included"),
       el("span", { class: "card-name" }, c.case[i]),
       el(
         "span",
@@ -228,13 +228,13 @@ function card(i) {
   );
 }
 
-// What the address says of a case that is open.
+// The part of the address that identifies an open case.
 function caseLink(name) {
   const method = G.method ? `&method=${encodeURIComponent(G.method)}` : "";
   return `case=${encodeURIComponent(name)}${method}`;
 }
 
-// Pictures are drawn one after another by one hidden scene, those in sight first.
+// One hidden scene draws the pictures one after another, visible ones first.
 let painter = null,
   queue = [],
   painting = false;
@@ -277,7 +277,7 @@ async function paint() {
     }
   } catch (error) {
     for (const canvas of queue)
-      canvas.replaceWith(el("span", { class: "no-picture" }, "no 3D here"));
+      canvas.replaceWith(el("span", { class: "no-picture" }, "3D is not available"));
     queue = [];
   } finally {
     painting = false;

@@ -1,4 +1,4 @@
-// Puts the page together.
+// Builds the page.
 const section = (id, title, intro, ...content) =>
   el(
     "section",
@@ -19,7 +19,7 @@ function head() {
     ],
     [D.labels.length, "methods and configurations"],
     [new Set(c.scenario).size, "scenarios"],
-    [(D.n * D.labels.length).toLocaleString("en"), "questions asked"],
+    [(D.n * D.labels.length).toLocaleString("en"), "pairs of case and method"],
     [
       r.noise === null ? "–" : percent(r.noise),
       r.noise > 0.25 ? "timing noise: disturbed" : "timing noise",
@@ -41,7 +41,8 @@ function head() {
           ["by", "By difficulty"],
           ["cases", "Gallery"],
           ["tables", "Tables"],
-          ["run", "What was run"],
+          ["run", "About this run"],
+          ["terms", "Glossary"],
         ].map(([id, t]) => el("a", { href: `#${id}` }, t)),
       ),
       themeButton(),
@@ -51,12 +52,15 @@ function head() {
     el(
       "p",
       { class: "intro" },
-      "Every label is certified: a proof of each answer is stored with its case and was " +
-        "checked by a program that knows no engine. A ",
+      "Every label is certified: its proof is stored with the case and was checked by a program " +
+        "that is independent of all engines. A ",
       el("b", {}, "miss"),
-      " is a certified hit answered clear, a ",
+      " (false negative) is a certified hit answered clear; a ",
       el("b", {}, "false alarm"),
-      " a certified clear answered hit. Every figure below opens the cases behind it.",
+      " (false positive) is a certified clear case answered hit. Click on a figure to see its " +
+        "cases. The ",
+      el("a", { href: "#terms" }, "glossary"),
+      " defines all terms.",
     ),
     el(
       "ul",
@@ -102,7 +106,7 @@ function runPage() {
       id: "filters",
       class: "filters",
       role: "group",
-      "aria-label": "Which cases the figures are of",
+      "aria-label": "Filter of the cases",
     }),
     el(
       "main",
@@ -110,13 +114,14 @@ function runPage() {
       section(
         "board",
         "Leaderboard",
-        "Over the certified cases that a method answered. Sort by any column; methods that " +
-          "answer different cases are not strictly comparable: see “Answered”.",
+        "Each method is judged on the certified cases that it answered. Methods that answered " +
+          "different cases are not strictly comparable: see “Answered”. Click on a column head " +
+          "to sort.",
         el("div", { id: "board-table" }),
       ),
       section(
         "speed",
-        "Accuracy against speed",
+        "Accuracy and speed",
         "",
         el("div", { id: "plot-controls", class: "controls" }),
         el("div", { id: "plot" }),
@@ -125,7 +130,8 @@ function runPage() {
       section(
         "by",
         "By difficulty",
-        "A pooled rate hides all that matters: the same counts split by one property of the cases.",
+        "Pooled rates hide differences between cases. This table splits the counts by one " +
+          "property of the cases.",
         el("div", { id: "pivot-controls", class: "controls" }),
         el("div", { id: "pivot-table" }),
       ),
@@ -133,11 +139,12 @@ function runPage() {
       section(
         "tables",
         "Tables of the run",
-        "As saved in its folder tables/ (CSV, Markdown, LaTeX), over all cases whatever the " +
-          "filter above; rates with 95 % Wilson intervals.",
+        "The tables in the run's folder tables/ (CSV, Markdown, LaTeX). They cover all cases; " +
+          "the filter above does not apply. Rates have 95 % Wilson intervals.",
         el("div", { id: "saved" }),
       ),
-      section("run", "What was run", "", el("div", { id: "run-facts" })),
+      section("run", "About this run", "", el("div", { id: "run-facts" })),
+      section("terms", "Glossary", "", glossary()),
     ),
     dialog(),
   );
@@ -187,7 +194,7 @@ readData()
         el(
           "p",
           { class: "notice" },
-          `This page could not be drawn: ${error.message}. It needs a browser of 2023 or ` +
+          `This page could not be displayed: ${error.message}. It needs a browser from 2023 or ` +
             "later (DecompressionStream, WebGL).",
         ),
       );

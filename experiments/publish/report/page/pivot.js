@@ -1,4 +1,4 @@
-// Counts by method and by one property of the cases, with intervals; every cell opens its cases.
+// Counts by method and one property of the cases, with intervals; each cell links to its cases.
 let across = "scenario",
   what = "wrong";
 const WHAT = {
@@ -6,7 +6,7 @@ const WHAT = {
   miss: { words: "misses", of: (r) => [r.misses, r.hits] },
   "false alarm": { words: "false alarms", of: (r) => [r.alarms, r.clears] },
   tunnelled: { words: "tunnelled", of: (r) => [r.tunnelled, r.canTunnel] },
-  beyond: { words: "wrong beyond the own tolerance", of: (r) => [r.beyond, r.judged] },
+  beyond: { words: "wrong outside the method's tolerance", of: (r) => [r.beyond, r.judged] },
   late: { words: "late times", of: (r) => [r.late, r.timed] },
   answered: { words: "answered", of: (r) => [r.answered, r.asked], good: true },
 };
@@ -100,8 +100,8 @@ function drawPivot() {
     el(
       "p",
       { class: "note" },
-      "Each cell: how many of how many, with the 95 % Wilson interval below. Shading follows " +
-        "the rate.",
+      "Each cell gives a count, its total and the 95 % Wilson interval of the rate. Darker cells " +
+        "have higher rates.",
     ),
   );
 }

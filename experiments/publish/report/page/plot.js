@@ -1,5 +1,5 @@
-// Accuracy against speed: one curve per method over its parameter, colour by engine, symbol by
-// method; below it the same points as the leaderboard.
+// Accuracy versus speed: a curve per method over its parameter, with a colour per engine and a
+// symbol per method.
 const MEASURES = {
   "wrong answers": { of: (r) => [r.wrong, r.judged], kind: "wrong" },
   misses: { of: (r) => [r.misses, r.hits], kind: "miss" },
@@ -18,11 +18,11 @@ const SYMBOLS = [
   "hexagon",
   "cross",
 ];
-const GRAIN = 50; // ns: what the clock cannot tell from nothing is drawn there
+const GRAIN = 50; // ns: shorter times are below the clock's resolution and are drawn at this value
 let measure = "wrong answers",
   clockSide = "net";
 
-// Linear up to 1 %, then logarithmic: 0 can be drawn.
+// Linear up to 1 %, then logarithmic, so that 0 can be drawn.
 const squash = (rate) => Math.asinh(100 * rate);
 const colour = (name) =>
   getComputedStyle(document.documentElement).getPropertyValue(name.slice(4, -1)).trim();
@@ -30,7 +30,7 @@ const colour = (name) =>
 function drawPlotControls() {
   document.getElementById("plot-controls").replaceChildren(
     select(
-      "Up",
+      "Vertical axis",
       Object.keys(MEASURES).filter((k) => k !== "tunnelled" || F.question !== "overlap"),
       measure,
       (v) => {
@@ -39,9 +39,9 @@ function drawPlotControls() {
       },
     ),
     select(
-      "Across",
+      "Horizontal axis",
       [
-        ["net", "net time (floor taken off)"],
+        ["net", "net time (less the floor)"],
         ["gross", "gross time"],
       ],
       clockSide,
@@ -85,9 +85,9 @@ async function drawPlot() {
   if (!families.size) {
     box.hidden = true;
     words.textContent = Object.keys(D.lanes).length
-      ? "No method has both a rate and a time for these cases: fewer are timed than asked. " +
+      ? "No method has both a rate and a time for these cases, since only some cases are timed. " +
         "Widen the filter."
-      : "This run took no times.";
+      : "This run has no query times.";
     return;
   }
   box.hidden = false;
@@ -140,8 +140,8 @@ async function drawPlot() {
           `<b>${p.label}</b><br>${measure} ${p.count}/${p.total} (${interval(p.ci)})<br>net ` +
           `${microseconds(p.cost.net)} µs, gross ${microseconds(p.cost.gross)} µs over ` +
           `${p.cost.n} ` +
-          `${p.cost.bins ? "bins of pairs of the native lane" : "cases"}<br>` +
-          (p.whole ? "answers all of these cases" : `answers ${p.r.answered} of ${p.r.asked}`),
+          `${p.cost.bins ? "bins of the native benchmark" : "cases"}<br>` +
+          (p.whole ? "answered all of these cases" : `answered ${p.r.answered} of ${p.r.asked}`),
       ),
       hoverinfo: "text",
     });
@@ -203,19 +203,19 @@ async function drawPlot() {
   }
   words.textContent =
     (F.lane === "native"
-      ? "Native times are of the libraries in one C++ loop, on some of this run's cases " +
-        "(ofg-bench native); rates are of all of them. "
+      ? "Native times are those of the libraries in one C++ loop (ofg-bench native), on some of " +
+        "this run's cases; rates are over all of them. "
       : "") +
-    `${plural(all.length, "configuration")} with a rate and a time on these cases. Hollow: ` +
-    "answers only part of them, and is not on the Pareto front (choose the cases that all " +
-    "answer, above, to compare all). At ≤ 0.05: no dearer than the method's own floor. " +
-    "Whiskers: 95 % Wilson intervals. Labels that would cover others are left out. A click " +
-    "on a point shows the cases behind it; the leaderboard above holds the same figures.";
+    `${plural(all.length, "configuration")} with a rate and a time on these cases. A hollow ` +
+    "point marks a method that answered only some of them and is not on the Pareto front; " +
+    "select common cases above to compare all methods. A time of ≤ 0.05 µs is not " +
+    "distinguishable from the method's floor. Whiskers: 95 % Wilson intervals. Labels that " +
+    "would overlap are omitted. Click on a point to see its cases.";
 }
 
-// A corner of its point for each label where it covers no other label and no point, as nearly as is
-// known before drawing; a label without one is left out, and shown like every other when the
-// pointer is on its point.
+// Places each label at a corner of its point where it overlaps no other label or point, as far as
+// is known before drawing. A label without such a corner is shown only when the pointer is on its
+// point.
 function placeLabels(points, width) {
   const xs = points.map((p) => Math.log10(p.us)),
     low = Math.min(...xs),

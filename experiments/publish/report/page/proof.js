@@ -1,4 +1,4 @@
-// What a certificate has for a moment: a plane that keeps the bodies apart, or a common point.
+// The part of a certificate that applies to a time: a separating plane or a common point.
 
 function proofAt(g, t) {
   const c = D.cases;

@@ -1,13 +1,13 @@
-// What was run, and on what.
+// The configuration of the run and the machine on which it ran.
 function drawRun() {
   const r = D.run,
     before = r.before || {},
     after = r.after || {};
   const noise =
     r.noise === null || r.noise === undefined
-      ? "no times were taken"
-      : `90th percentile of the probe ${percent(r.noise)} above its median, worst ` +
-        `bin${r.noise > 0.25 ? ": this run was disturbed, doubt its times" : ""}`;
+      ? "no query times"
+      : `90th percentile of the noise probe ${percent(r.noise)} above its median in the worst ` +
+        `bin${r.noise > 0.25 ? "; this run was disturbed, and its times are not reliable" : ""}`;
   const facts = [
     ["About", r.about || "–"],
     ["Started, finished (UTC)", `${stamp(r.started)}, ${stamp(r.finished)}`],
@@ -66,13 +66,13 @@ function drawRun() {
       },
       { title: "Tolerance", left: true, cell: (x) => x.tolerance },
       {
-        title: "Guarantee, by its documentation",
+        title: "Guarantee by its documentation",
         left: true,
         cell: (x) => el("span", { class: "wide" }, x.guarantee),
       },
     ],
     D.methods,
-    { caption: "Methods, as they declare themselves" },
+    { caption: "Methods, with the properties that they declare" },
   );
   document
     .getElementById("run-facts")

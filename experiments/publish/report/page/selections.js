@@ -1,4 +1,4 @@
-// What OFG looked at, painted on the bodies: its selections, the faces that met, virtual edges.
+// Draws OFG's selections, the faces that met and the virtual edges on the bodies.
 
 // The edges of triangles, as pairs of points. positions: nine numbers for each triangle.
 function outline(positions) {

@@ -1,4 +1,4 @@
-// The tables of the run as they are saved in tables/, their cells leading to the cases behind them.
+// The tables of the run as saved in tables/; each cell links to its cases.
 const RATES = new Set([
   "judged",
   "judged hit",

@@ -1,4 +1,4 @@
-// Elements and numbers as people read them.
+// Page elements and formatted numbers.
 function el(tag, attributes = {}, ...children) {
   const node = document.createElement(tag);
   for (const [key, value] of Object.entries(attributes)) {

@@ -1,29 +1,28 @@
-// What is said of one case in words: its facts, its certificate, what OFG looked at, every method's
-// verdict.
+// The text about one case: its properties, its certificate, OFG's selections and all answers.
 
-// How OFG came to its hit: answer.found.
+// How OFG found its hit: answer.found.
 const FOUND_WORDS = {
-  start: "faces that meet at the start",
-  end: "faces that meet at the end",
-  "edge-face": "a virtual edge of A meets a face of B",
-  "face-edge": "a virtual edge of B meets a face of A",
+  start: "faces that intersect at the start",
+  end: "faces that intersect at the end",
+  "edge-face": "a virtual edge of A intersects a face of B",
+  "face-edge": "a virtual edge of B intersects a face of A",
   "edge-edge": "a moving edge meets an edge",
   inside: "one body lies inside the other",
 };
 const moves = (i, side) =>
   Boolean(norm(D.cases[`displacement${side}`][i]) || D.cases[`angle${side}`][i]);
 
-// What one body does in the step; side: "" for A, "_b" for B.
+// The motion of one body in words; side: "" for A, "_b" for B.
 function motionWords(i, side) {
   const of = (name) => D.cases[`${name}${side}`][i],
     d = norm(of("displacement")),
     about = of("about");
-  if (!moves(i, side)) return "rests";
+  if (!moves(i, side)) return "at rest";
   const turn = of("angle")
-    ? `turns ${number(of("angle"))} ` +
+    ? `rotates by ${number(of("angle"))} ` +
       `rad${norm(about) ? ` about its point (${about.map((x) => number(x)).join(", ")})` : ""}`
     : "";
-  return [d ? `moves ${number(d)}` : "", turn].filter(Boolean).join(", ");
+  return [d ? `translates by ${number(d)}` : "", turn].filter(Boolean).join(", ");
 }
 
 function facts(i) {
@@ -42,7 +41,7 @@ function facts(i) {
     [
       D.run.refused ? `Stated, not certified (${D.run.refused})` : "Certified",
       el("b", { class: `label ${c.label[i]}` }, c.label[i]),
-      c.touching[i] ? ", touching: the surfaces share a point and no more" : "",
+      c.touching[i] ? ", touching: the bodies share boundary points only" : "",
       c.reason[i] ? ` (${c.reason[i]})` : "",
       sweep && hit ? ` · start ${c.start[i]}, end ${c.end[i]}` : "",
     ],
@@ -50,14 +49,14 @@ function facts(i) {
       ? [
           "Time of impact",
           c.t_lo[i] === c.t_hi[i]
-            ? `${c.t_hi[i]} (exact to double)`
+            ? `${c.t_hi[i]} (exact to double precision)`
             : `[${c.t_lo[i]}, ${c.t_hi[i]}]`,
         ]
       : null,
     c.gap[i] === null
       ? null
       : [
-          c.gap[i] > 0 ? "Clearance at least" : c.gap[i] < 0 ? "Depth about" : "Gap",
+          c.gap[i] > 0 ? "Clearance at least" : c.gap[i] < 0 ? "Penetration depth about" : "Gap",
           `${number(Math.abs(c.gap[i]))} (${number(Math.abs(c.relative[i]))} of the size)`,
         ],
     ["Difficulty", `${D.scenarios[c.scenario[i]]?.axis || "level"}: ${number(c.level[i], 6)}`],
@@ -86,12 +85,14 @@ function facts(i) {
 }
 
 function planeWords(g, plane) {
-  const frame = { A: "turning with A", B: "turning with B" }[plane.frame] || "fixed in space";
+  const frame = { A: "rotating with A", B: "rotating with B" }[plane.frame] || "fixed in space";
   const parts = g.a.kind === "union" || g.b.kind === "union" ? "pieces" : "faces";
-  const groups = `; it is the tightest of ${plane.count} between groups of ${parts}`;
+  const many = plane.count > 1;
   return (
-    `Certified: this plane (${frame}) separates them now${plane.count > 1 ? groups : ""}. ` +
-    `Clearance along it, in doubles: ${number(plane.gap)}.`
+    "Certified: " +
+    (many ? `${plane.count} planes separate groups of ${parts} at this time. ` : "") +
+    (many ? "The plane with the least clearance is shown" : "this plane separates them") +
+    ` (${frame}). Its clearance in double precision is ${number(plane.gap)}.`
   );
 }
 
@@ -99,7 +100,7 @@ function proofWords(i, g, { plane, point }, t) {
   const c = D.cases,
     many =
       D.proofs[i]?.clear && !D.proofs[i].clear.leaves
-        ? ` Its ${D.proofs[i].clear.planes.toLocaleString("en")} planes are too many for this page.`
+        ? ` Its ${D.proofs[i].clear.planes.toLocaleString("en")} planes are too many to show.`
         : "";
   if (c.label[i] === "uncertain") return `No certificate: ${c.reason[i]}`;
   if (D.run.refused) return `Stated, not certified: ${D.run.refused}.`;
@@ -107,8 +108,8 @@ function proofWords(i, g, { plane, point }, t) {
   if (plane) return planeWords(g, plane);
   if (c.label[i] === "hit" && t > (c.t_lo[i] ?? 0))
     return t < c.t_hi[i]
-      ? "Between the certified ends of the bracket."
-      : "After the impact: the certificate's point is for the time of impact alone.";
+      ? "This time lies inside the certified bracket of the time of impact."
+      : "This time is after the impact; the certificate applies to the time of impact only.";
   return `Certified clear.${many}`;
 }
 
@@ -116,7 +117,7 @@ function timeMarks(i, label, method) {
   const c = D.cases,
     marks = [];
   if (c.label[i] === "hit" && c.t_hi[i] !== null)
-    marks.push([c.t_hi[i], "truth", "certified impact"]);
+    marks.push([c.t_hi[i], "truth", "certified time of impact"]);
   for (const [l, kind] of [
     [method, "told"],
     [label, "told"],
@@ -140,7 +141,7 @@ function ofgWords(i, label, x) {
   const of = (n, b, piece) =>
     `${n} of the ${b.pieces && piece >= 0 ? b.pieces[piece][1] : b.f[2]} faces`;
   lines.push(
-    `It took ${of(x.na, sa, x.pieces[0])} of ` +
+    `OFG selected ${of(x.na, sa, x.pieces[0])} of ` +
       `A${sa.pieces ? ` (piece ${x.pieces[0] + 1} of ${sa.pieces.length})` : ""} and ` +
       `${of(x.nb, sb, x.pieces[1])} of ` +
       `B${sb.pieces ? ` (piece ${x.pieces[1] + 1} of ${sb.pieces.length})` : ""}` +
@@ -150,17 +151,17 @@ function ofgWords(i, label, x) {
         : "") +
       (moving
         ? {
-            1: ", chosen at the start",
-            2: ", chosen at the start and the end",
-            3: ", chosen at the start, at the end and where the centres pass closest",
+            1: ", at the start",
+            2: ", at the start and at the end",
+            3: ", at the start, at the end and where the centres are closest",
           }[x.selections]
         : "") +
       ".",
   );
   if (x.bodies.some((b, k) => b !== D.drawn[i][k]))
     lines.push(
-      "It was asked about CoACD's pieces of the mesh, which are another body than the mesh " +
-        "near its surface.",
+      "Its query contained CoACD's pieces of the mesh, which differ from the mesh near its " +
+        "surface.",
     );
   const m = D.method.get(label),
     letter = D.outcome[m]?.[i],
@@ -170,7 +171,7 @@ function ofgWords(i, label, x) {
     (letter === "r" || MISS.has(letter) || ALARM.has(letter)) &&
     x.hit !== (letter === "r" ? hit : ALARM.has(letter))
   )
-    lines.push("The OFG that made this page answers otherwise than the one of the run.");
+    lines.push("The version of OFG that made this page gives a different answer from the run's.");
   if (x.hit) {
     lines.push(
       `It answered hit${x.time !== null ? ` at t = ${number(x.time, 8)}` : ""}: ` +
@@ -180,13 +181,13 @@ function ofgWords(i, label, x) {
     if (truth === "clear")
       lines.push(
         c.touching[i]
-          ? "The certificate says that the surfaces share a point and no more."
-          : "The certificate says that nothing meets.",
+          ? "The certificate proves that the bodies share boundary points only."
+          : "The certificate proves that the bodies do not overlap.",
       );
   } else if (truth === "hit") {
     lines.push(
       x.stopped
-        ? `It answered clear before it looked at a face: ${x.stopped}.`
+        ? `It answered clear before it tested any faces: ${x.stopped}.`
         : "It answered clear.",
     );
     if (x.should) {
@@ -198,25 +199,25 @@ function ofgWords(i, label, x) {
         );
       const place = (p, is, side) =>
         p === null
-          ? `${side}'s belongs to a piece that was not asked`
-          : `${side}'s is the ${ordinal(p)} nearest, ${is ? "taken" : "not taken"}`;
+          ? `the face of ${side} belongs to a piece that was not tested`
+          : `the face of ${side} is the ${ordinal(p)} nearest and was ` +
+            `${is ? "selected" : "not selected"}`;
+      const when = moving ? ` at t = ${number(x.should.time, 6)}` : "";
       lines.push(
-        `Faces that do meet${moving ? ` at t = ${number(x.should.time, 6)}` : ""}: ` +
-          `${x.should.faces[0]} of A and ${x.should.faces[1]} of B. ` +
-          `${place(pa, taken[0], "A")}; ${place(pb, taken[1], "B")}.`,
+        `Face ${x.should.faces[0]} of A and face ${x.should.faces[1]} of B intersect${when}; ` +
+          `${place(pa, taken[0], "A")}, and ${place(pb, taken[1], "B")}.`,
       );
       if (taken[0] && taken[1] && moving && !x.stopped)
         lines.push(
-          "Both were taken, but at the start, at the end and along the virtual edges " +
-            `(straight paths of the vertices of A${x.vertices_b ? " and B" : ""}) they do not ` +
-            "touch: edges against edges in motion, and what curves, are left out as the " +
-            "article has it.",
+          "Both were selected, but they do not intersect at the start, at the end or along the " +
+            `virtual edges (straight paths of the vertices of A${x.vertices_b ? " and B" : ""}). ` +
+            "As in the article, collisions of moving edges and curved paths are not tested.",
         );
     } else
       lines.push(
-        "No faces meet" +
-          (moving ? " at the impact or soon after" : "") +
-          ": one body lies inside the other, or the contact is thinner than rounding.",
+        "No faces intersect" +
+          (moving ? " at the time of impact or soon after" : "") +
+          ": one body lies inside the other, or the overlap is smaller than the rounding error.",
       );
   } else lines.push("It answered clear.");
   return el(
@@ -234,7 +235,7 @@ function ordinal(n) {
 
 function ofPieces(i, m) {
   const own = D.truth[m].get(i);
-  return own ? el("small", {}, `judged by CoACD's pieces of the mesh: ${own.label}`) : "";
+  return own ? el("small", {}, `judged by the CoACD pieces of the mesh: ${own.label}`) : "";
 }
 
 function verdicts(i, method) {
@@ -254,7 +255,7 @@ function verdicts(i, method) {
   return el(
     "div",
     {},
-    el("h3", {}, "What every method said"),
+    el("h3", {}, "Answers of all methods"),
     sortable(
       [
         {
@@ -264,7 +265,7 @@ function verdicts(i, method) {
           cell: (r) => (r.label === method ? el("b", {}, r.label) : r.label),
         },
         {
-          title: "Verdict",
+          title: "Outcome",
           left: true,
           key: (r) => rank[r.letter],
           cell: (r) => [
@@ -280,7 +281,7 @@ function verdicts(i, method) {
         },
         sweep && {
           title: "Error",
-          note: "beyond the certified bracket, as a share of the step: late is positive",
+          note: "outside the certified bracket, as a share of the step; late is positive",
           key: (r) => r.error,
           cell: (r) =>
             r.error === undefined
@@ -294,7 +295,12 @@ function verdicts(i, method) {
       { start: 1, id: "verdicts", caption: "" },
     ),
     silent
-      ? el("p", { class: "note" }, `${silent} more do not answer ${D.cases.question[i]}.`)
+      ? el(
+          "p",
+          { class: "note" },
+          `${plural(silent, "further method")} of the run ${silent === 1 ? "does" : "do"} not ` +
+            `answer ${D.cases.question[i]} queries.`,
+        )
       : "",
   );
 }

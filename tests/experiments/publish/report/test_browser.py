@@ -13,7 +13,7 @@ import pytest
 from experiments.analysis import costs, metrics, outcome
 from experiments.cases.families import get
 from experiments.cases.label import Truth
-from experiments.publish.report import explain, report
+from experiments.publish.report import explain, glossary, report
 from experiments.run.folder.rows import case_row
 
 CHROMIUM = next(
@@ -120,6 +120,13 @@ def board(page) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=[h.strip(" ↑↓") for h in head]).set_index("Method")
 
 
+def test_the_glossary_is_embedded(open_page, written):
+    page = open_page(written)
+    shown = page.evaluate("[...document.querySelectorAll('#terms dt')].map((t) => t.textContent)")
+    assert shown == [term for part in glossary.terms() for term, _ in part["terms"]]
+    assert "False alarm" in shown and page.locator("nav a[href='#terms']").count() == 1
+
+
 def test_the_leaderboard_counts_as_the_run_does(open_page, written, found):
     page = open_page(written)
     for question in ("overlap", "translation", "motion"):
@@ -185,13 +192,13 @@ def test_filters_narrow_every_figure(open_page, written, found):
         "document.querySelector('#plot')?.data?.length > 0 ||"
         " document.querySelector('#plot').hidden",
     )
-    page.click(".filters button:text('Clear')")
+    page.click(".filters button:text('Reset')")
     until(page, "document.querySelector('#plot')?.data?.length > 0")
     points = page.evaluate(
         "document.querySelector('#plot').data.flatMap((t) => t.customdata || [])"
     )
     assert sorted(points) == sorted(board(page).index)
-    page.select_option("[data-name=Up]", "misses")
+    page.select_option("[data-name='Vertical axis']", "misses")
     until(page, "document.querySelector('#plot').layout.yaxis.title.text.startsWith('misses')")
     choose(page, "motion")
     until(

@@ -103,12 +103,12 @@ def test_what_is_not_there_is_said(run, tmp_path):
 
 
 def test_a_motion_in_words():
-    assert explain.motion_words(Motion()) == "rests"
+    assert explain.motion_words(Motion()) == "is at rest"
     turning = Motion((0, 0, -2), (0, 0, 1), 1.5, (1, 0, 0))
     assert (
         explain.motion_words(turning)
-        == "moves by (0, 0, -2), turns by 1.5 rad about the axis (0, 0, 1) through its point (1,"
-        " 0, 0)"
+        == "translates by (0, 0, -2), rotates by 1.5 rad about the axis (0, 0, 1) through its point"
+        " (1, 0, 0)"
     )
 
 

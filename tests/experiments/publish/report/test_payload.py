@@ -143,7 +143,7 @@ def test_a_full_page_leaves_bodies_out_and_the_gallery_comes_first(run, monkeypa
     monkeypatch.setattr(payload, "BYTES", 3000)
     made = payload.of_run(run)
     assert 0 < len(made["drawn"]) < len(made["cases"]["case"]) and len(made["bytes"]) <= 3000
-    wanted = payload.gallery(outcome.outcomes(run))
+    wanted = gallery.gallery(outcome.outcomes(run))
     assert made["cases"]["case"][next(iter(made["drawn"]))] in wanted
 
 
