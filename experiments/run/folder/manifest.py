@@ -20,7 +20,7 @@ from experiments.run.config import RunConfig
 LIBRARIES = ("numpy", "scipy", "pandas", "pyarrow", "python-flint", "trimesh", "coacd", "ofg")
 
 
-def machine() -> dict:
+def machine() -> dict[str, object]:
     """Processor, frequency, memory, load, system: without the machine's name or any path."""
     frequency = psutil.cpu_freq()
     return {
@@ -34,12 +34,12 @@ def machine() -> dict:
     }
 
 
-def versions(config: RunConfig) -> dict:
+def versions(config: RunConfig) -> dict[str, str | None]:
     engines = {m.engine for spec in config.asked for m in registry.make(spec)}
     return {name: version(name) for name in sorted(engines | set(LIBRARIES))}
 
 
-def build() -> dict:
+def build() -> dict[str, str]:
     """Compiler and flags of the project's native code, and the instruction set that it uses
     here.
     """
