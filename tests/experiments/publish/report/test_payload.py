@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from experiments.analysis import outcome, tables, views
-from experiments.publish.report import certificate, page, payload, report
+from experiments.publish.report import certificate, gallery, page, payload, report
 from experiments.publish.report.cells import links, select
 from experiments.run.folder.rows import cases_of
 from experiments.run.timing import FLOOR, LOST, PROBE, situation_of, size_of
