@@ -117,6 +117,11 @@ def hashes(folder: Path) -> dict[str, str]:
         if name.parts[0] in DERIVED or name.parts[0].startswith("."):
             continue
         if path.is_file() and not path.is_symlink():
-            with path.open("rb") as stream:
-                found[name.as_posix()] = hashlib.file_digest(stream, "sha256").hexdigest()
+            found[name.as_posix()] = digest(path)
     return found
+
+
+def digest(path: Path) -> str:
+    """SHA-256 (hex) of a file."""
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
