@@ -15,11 +15,8 @@ triangle soup of all pieces. Pitfalls avoided here:
 
 from __future__ import annotations
 
-import ctypes
 import math
-import sys
 from collections.abc import Callable
-from functools import cache
 from itertools import product
 
 import numpy as np
@@ -27,21 +24,12 @@ import numpy as np
 from ofg import Body, Pose, Query
 
 from .contract import Method, MissingEngine, Tolerance, Unsupported, Verdict
+from .fcl_heap import HEAP, fill_motions, repeatable
 from .sampling import Discrete, Substeps
 from .units import Normalised
 
-#: Bytes of FCL 0.7's InterpMotion, the object of CCDM_LINEAR: of all sizes from 24 to 2024, only
-#: stale blocks of this size change answers.
-#: valgrind reports no other uninitialised memory that conservative advancement reads, on the heap
-#: or the stack.
-MOTION_BYTES = 504
 #: length: collision_tolerance and distance_tolerance of both of FCL's GJK solvers, by their headers
 GJK = 1e-6
-#: bytes that an InterpMotion finds; 0x7F makes numbers of 1e306
-HEAP = {
-    "zero": 0x00,
-    "filled": 0x7F,
-}
 
 
 def _fcl():
@@ -199,7 +187,7 @@ class _Continuous(Method):
         self.refuse(query)
         path = self.path[query.question]
         linear = path == "CCDM_LINEAR"
-        if linear and not _repeatable():
+        if linear and not repeatable(_fcl()):
             raise Unsupported(
                 "CCDM_LINEAR reads uninitialised memory, and this platform's malloc does not let "
                 "us set it beforehand"
@@ -220,7 +208,7 @@ class _Continuous(Method):
                 for a, b in pairs:
                     result = fcl.ContinuousCollisionResult()
                     if linear:
-                        _fill_motions(fill)
+                        fill_motions(fill)
                     fcl.continuousCollide(a, stop_a, b, stop_b, request, result)
                     if result.is_collide:
                         first = min(first, result.time_of_contact)
@@ -365,63 +353,6 @@ class FclNaiveConvex(Normalised, _Convex, _Naive):
 
 class FclNaiveMesh(Normalised, _Mesh, _Naive):
     name = "fcl-naive-mesh"
-
-
-def _fill_motions(fill: int) -> None:
-    """Leave two blocks of this byte where malloc will look first for the two InterpMotions of the
-    next call (1 us).
-
-    glibc reuses the block of a size that was freed last.
-    """
-    libc = _libc()
-    blocks = [libc.malloc(MOTION_BYTES), libc.malloc(MOTION_BYTES)]
-    for block in blocks:
-        libc.memset(block, fill, MOTION_BYTES)
-    for block in blocks:
-        libc.free(block)
-
-
-@cache
-def _libc():
-    libc = ctypes.PyDLL(None)
-    libc.malloc.restype, libc.malloc.argtypes = ctypes.c_void_p, [ctypes.c_size_t]
-    libc.memset.restype, libc.memset.argtypes = (
-        ctypes.c_void_p,
-        [
-            ctypes.c_void_p,
-            ctypes.c_int,
-            ctypes.c_size_t,
-        ],
-    )
-    libc.free.restype, libc.free.argtypes = None, [ctypes.c_void_p]
-    return libc
-
-
-@cache
-def _repeatable() -> bool:
-    """Whether `_fill_motions` determines the answer here, tested by a rotating cube with our
-    stale memory and with zeroed memory.
-    """
-    if sys.platform != "linux":
-        return False
-    fcl = _fcl()
-    request = fcl.ContinuousCollisionRequest(
-        num_max_iterations=10,
-        ccd_motion_type=fcl.CCDMotionType.CCDM_LINEAR,
-        ccd_solver_type=fcl.CCDSolverType.CCDC_NAIVE,
-    )
-    stop, at_b = fcl.Transform(np.array([0.8, 0, 0, 0.6]), np.array([5.0, 0, 0])), fcl.Transform()
-    a, b = (
-        fcl.CollisionObject(fcl.Box(2, 2, 2), fcl.Transform(np.array([-5.0, 0, 0]))),
-        fcl.CollisionObject(fcl.Box(2, 2, 2), at_b),
-    )
-    times = []
-    for fill in (HEAP["filled"], HEAP["zero"]):
-        result = fcl.ContinuousCollisionResult()
-        _fill_motions(fill)
-        fcl.continuousCollide(a, stop, b, at_b, request, result)
-        times.append(result.time_of_contact)
-    return times[0] != times[1] and abs(times[1] - 1 / 3) < 1e-9
 
 
 def _transform(pose: Pose):

@@ -57,9 +57,9 @@ struct Cast final : lane::Engine {
     return made;
   }
 
-  static btTransform placed(const lane::Pose& p) {
-    const double numbers[] = {p.p[0], p.p[1], p.p[2], p.q[0], p.q[1], p.q[2], p.q[3]};
-    return transform(numbers);
+  static btTransform placed(const lane::Pose& p) {  // of length 1 already
+    return btTransform(btQuaternion(p.q[1], p.q[2], p.q[3], p.q[0]),
+                       btVector3(p.p[0], p.p[1], p.p[2]));
   }
 
   std::vector<casts::Leg> legs(const lane::Case& c) const {

@@ -48,14 +48,27 @@ def run(
             + " To leave its rows empty, use --skip-missing."
         )
     store = Store(folder)
+    sound = _config_as_recorded(store)
     with store.held(config):
         if "finished" in facts(store):
+            if sound:  # titles may have been reworded; a configuration changed by hand stays found
+                hashes = facts(store)["sha256"]
+                new = manifest.digest(store.folder / "config.json")
+                note(store, sha256={**hashes, "config.json": new})
             made = report(store)
             shutil.rmtree(store.folder / "parts", ignore_errors=True)
             say(f"The run in {folder} is already finished; only its tables were rebuilt.")
             return made
         begin(store, config)
         return finish(store, config, workers or os.cpu_count() or 1)
+
+
+def _config_as_recorded(store: Store) -> bool:
+    """Whether config.json is the file that the manifest of a finished run recorded."""
+    path = store.folder / "config.json"
+    if not path.is_file() or not store.has("manifest.json"):
+        return False
+    return facts(store).get("sha256", {}).get("config.json") == manifest.digest(path)
 
 
 def begin(store: Store, config: RunConfig) -> None:

@@ -12,15 +12,16 @@ from time import perf_counter
 import pandas as pd
 
 from baselines import registry
-from baselines.contract import MissingEngine, Unsupported, Verdict, checked
+from baselines.contract import Method, MissingEngine, Unsupported, Verdict, checked
 from experiments.cases.case import Case
 
 from . import ownfile, words
 from .config import RunConfig, load_files
 from .folder import origin
-from .folder.rows import cases_of
+from .folder.rows import Row, cases_of
+from .folder.shard import Shard
 from .folder.store import Store
-from .processes.pool import Task, limit, mixed, run
+from .processes.pool import Loss, Task, limit, mixed, run
 from .progress import stage
 
 CHUNK = 256  # cases answered in one process: bounds the memory that a leaking engine can take
@@ -31,13 +32,14 @@ PACE = [
     "query_s",
 ]
 PACES = ("parts", "pace.parquet")
+Told = Callable[[str, list[Row]], None]  #: see ask
 
 
 def ask(
     store: Store,
     config: RunConfig,
     workers: int,
-    told: Callable[[str, list[dict]], None] = lambda label, rows: None,
+    told: Told = lambda label, rows: None,
 ) -> None:
     """Write observations.parquet, a row per case and method; existing shards are not made again.
 
@@ -84,19 +86,21 @@ def ask(
     store.write(rows[COLUMNS], "observations.parquet")
 
 
-def _task(store: Store, config: RunConfig, method, chunk: list[Case], name, told) -> Task:
-    def done(rows):
+def _task(
+    store: Store, config: RunConfig, method: Method, chunk: list[Case], name: Shard, told: Told
+) -> Task:
+    def done(rows: list[Row]) -> None:
         told(method.label, rows)
         frame = pd.DataFrame(rows, columns=COLUMNS + PACE).astype({"hit": "boolean"})
         store.write(frame, name)
 
-    def lost(case, loss):
+    def lost(case: Case, loss: Loss) -> Row:
         return row(case, method.label, loss.status, detail=loss.detail)
 
     return Task(asker, (method.label, config), chunk, done, lost)
 
 
-def asker(argument: tuple[str, RunConfig]):
+def asker(argument: tuple[str, RunConfig]) -> Callable[[Case], Row]:
     spec, config = argument
     try:
         (method,) = registry.make(spec)
@@ -111,7 +115,7 @@ def asker(argument: tuple[str, RunConfig]):
     return lambda case: answer(method, case, config, spec)
 
 
-def answer(method, case: Case, config: RunConfig, label: str | None = None) -> dict:
+def answer(method: Method, case: Case, config: RunConfig, label: str | None = None) -> Row:
     """The observation row of one method for one case. Whatever it raises becomes its answer: status
     `error`.
 
@@ -140,14 +144,21 @@ class _Unclear(Exception):
     """A method returned an invalid answer; the message gives the reason."""
 
 
-def _checked(said) -> Verdict:
+def _checked(said: object) -> Verdict:
     try:
         return checked(said)
     except (TypeError, ValueError) as error:
         raise _Unclear(words.text_of(error)) from error
 
 
-def row(case: Case, method: str, status: str, hit=None, time=math.nan, detail="") -> dict:
+def row(
+    case: Case,
+    method: str,
+    status: str,
+    hit: bool | None = None,
+    time: float = math.nan,
+    detail: str = "",
+) -> Row:
     return {
         "case": case.id,
         "method": method,

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import difflib
 import tomllib
+from collections.abc import Iterable
 from functools import cache
 from importlib.metadata import entry_points
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
@@ -174,7 +175,7 @@ class RunConfig(_Strict):
     )
 
     @model_validator(mode="after")
-    def _something_to_do(self):
+    def _something_to_do(self) -> Self:
         if not self.stepping:
             for field in ("methods", "scenarios"):
                 if not getattr(self, field):
@@ -268,7 +269,7 @@ def load(source: str) -> RunConfig:
         ) from error
 
 
-def parsed(content: dict | str, path: Path, what: str = "The file") -> RunConfig:
+def parsed(content: dict[str, Any] | str, path: Path, what: str = "The file") -> RunConfig:
     """The configuration in a table, or in the text of a JSON file. ConfigError, which names the
     file and the fields.
     """
@@ -304,7 +305,7 @@ def load_files(config: RunConfig) -> None:
         families.load_file(path)
 
 
-def closest(word: str, words) -> str:
+def closest(word: str, words: Iterable[str]) -> str:
     """', did you mean ...?' or an empty string."""
     near = difflib.get_close_matches(word, list(words), n=3, cutoff=0.5)
     return f" (did you mean {' or '.join(near)}?)" if near else ""

@@ -5,8 +5,9 @@ without running their files.
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Literal
+from typing import Literal, NoReturn
 
+import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from baselines import registry
@@ -15,6 +16,7 @@ from baselines.label import name_of
 from baselines.tolerance import NONE, Tolerance
 from experiments.cases import families
 from experiments.cases.scenario import Scenario
+from ofg import Query
 
 from .config import RunConfig
 from .folder.store import Store, StoreError
@@ -69,7 +71,7 @@ class Declared(_Recorded):
     scenarios: dict[str, ScenarioFacts] = {}
 
 
-def of(config: RunConfig) -> dict:
+def of(config: RunConfig) -> dict[str, object]:
     """The record of a run's own methods and scenarios, which are already loaded; {} if it has
     none.
     """
@@ -83,11 +85,13 @@ def of(config: RunConfig) -> dict:
     made = {
         "methods": {name: _method(cls) for name, cls in own.items()},
         "scenarios": {
-            s.name: ScenarioFacts(
-                question=s.question,
-                exposes=s.exposes,
-                axis=s.axis,
-                levels=[float(v) for v in s.levels],
+            s.name: ScenarioFacts.model_validate(
+                {
+                    "question": s.question,
+                    "exposes": s.exposes,
+                    "axis": s.axis,
+                    "levels": [float(v) for v in s.levels],
+                }
             )
             for s in drawn
         },
@@ -95,7 +99,7 @@ def of(config: RunConfig) -> dict:
     return {"declared": Declared.model_validate(made).model_dump()}
 
 
-def _method(cls) -> MethodFacts:
+def _method(cls: type[Method]) -> MethodFacts:
     said = {name: getattr(cls, name) for name in MethodFacts.model_fields}
     said.update(
         questions=sorted(cls.questions),
@@ -109,7 +113,7 @@ def _method(cls) -> MethodFacts:
     return MethodFacts.model_validate(said)
 
 
-def _tolerance(cls) -> dict:
+def _tolerance(cls: type[Method]) -> dict[str, object]:
     """The value set in the class; none if it depends on the parameters."""
     return asdict(cls.tolerance if isinstance(cls.tolerance, Tolerance) else NONE)
 
@@ -132,16 +136,16 @@ def know(store: Store) -> list[str]:
     for name, facts in said.methods.items():
         if name not in known or known[name].__module__ == MODULE:
             known[name] = _stand_in(name, facts)
-    for name, facts in said.scenarios.items():
+    for name, drawn in said.scenarios.items():
         if name not in families.own_modules():
             families.scenarios().setdefault(
                 name,
-                Scenario(name, facts.question, facts.exposes, facts.axis, facts.levels, _undrawn),
+                Scenario(name, drawn.question, drawn.exposes, drawn.axis, drawn.levels, _undrawn),
             )
     return _notices(config, known)
 
 
-def _notices(config: RunConfig, known) -> list[str]:
+def _notices(config: RunConfig, known: dict[str, type[Method]]) -> list[str]:
     files = ", ".join((*config.method_files, *config.scenario_files))
     if not files:
         return []
@@ -177,9 +181,9 @@ def recorded(name: str) -> bool:
     return getattr(registry.methods().get(name), "__module__", "") == MODULE
 
 
-def _unasked(self, query):
+def _unasked(self: Method, query: Query) -> NoReturn:
     raise Unsupported("its file is not loaded; pass --trust")
 
 
-def _undrawn(rng, level):
+def _undrawn(rng: np.random.Generator, level: float) -> NoReturn:
     raise ValueError("its file is not loaded; pass --trust")

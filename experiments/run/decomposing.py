@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,7 +18,7 @@ from ofg import Body, BodyError, Query
 from . import words
 from .config import RunConfig
 from .folder import origin
-from .folder.rows import body_of, body_row, cases_of, truth_row
+from .folder.rows import Row, body_of, body_row, cases_of, truth_row
 from .folder.shard import Shard
 from .folder.store import Store
 from .labelling import CHUNK
@@ -30,6 +31,8 @@ DECOMPOSE_SECONDS, LABEL_SECONDS = (
     4.0,
     0.2,
 )
+
+Pieces = tuple[Body, str]  #: see pieces_of
 
 
 @dataclass(frozen=True)
@@ -80,7 +83,7 @@ def meshes_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> list[Body]:
     return [body_of(row) for row in bodies[used & (bodies.kind == "mesh")].itertuples()]
 
 
-def pieces_of(mesh: Body) -> tuple[Body, str]:
+def pieces_of(mesh: Body) -> Pieces:
     """The pieces that methods use in place of a mesh, and ""; or the mesh itself and the reason
     why it has none.
     """
@@ -96,7 +99,7 @@ def precision_of(query: Query, precision: str) -> str:
     return precision if exact else "float64"
 
 
-def item(case: Case, made: dict[str, tuple[Body, str]]) -> Item:
+def item(case: Case, made: dict[str, Pieces]) -> Item:
     """made: `pieces_of` each mesh by its digest."""
     q = case.query
     (a, fault_a), (b, fault_b) = (made.get(body.digest, (body, "")) for body in (q.a, q.b))
@@ -104,13 +107,15 @@ def item(case: Case, made: dict[str, tuple[Body, str]]) -> Item:
     return Item(case.id, query, precision_of(query, case.precision), fault_a or fault_b)
 
 
-def _decomposed(store: Store, config: RunConfig, workers: int, meshes) -> dict:
+def _decomposed(
+    store: Store, config: RunConfig, workers: int, meshes: list[Body]
+) -> dict[str, Pieces]:
     """digest of each mesh -> `pieces_of` it."""
     facts = {**origin.facts(), "seconds": config.build_seconds}
     names = [store.shard("decompositions", **facts, mesh=mesh.digest) for mesh in meshes]
 
-    def keep(mesh, name):
-        def done(results):
+    def keep(mesh: Body, name: Shard) -> Callable[[list[Pieces]], None]:
+        def done(results: list[Pieces]) -> None:
             ((pieces, fault),) = results
             row = {**body_row(pieces), "mesh": mesh.digest, "fault": fault}
             store.write(pd.DataFrame([row]), name)
@@ -135,12 +140,12 @@ def _decomposed(store: Store, config: RunConfig, workers: int, meshes) -> dict:
     return {row.mesh: (body_of(row), row.fault) for row in rows.itertuples()}
 
 
-def open_mesh(_):
+def open_mesh(_: None) -> Callable[[Body], Pieces]:
     """Return a function for a Task whose items are meshes."""
     return pieces_of
 
 
-def lost_mesh(mesh: Body, loss: Loss) -> tuple[Body, str]:
+def lost_mesh(mesh: Body, loss: Loss) -> Pieces:
     """The replacement for `pieces_of` a mesh whose process ended."""
     return mesh, f"decomposing stopped: {loss.detail}"
 
@@ -155,7 +160,7 @@ def _certified(store: Store, config: RunConfig, workers: int, items: list[Item])
     }
     names = [store.shard("pieces", **facts, chunk=[i.case for i in chunk]) for chunk in chunks]
 
-    def keep(name: Shard):
+    def keep(name: Shard) -> Callable[[list[Row]], None]:
         return lambda rows: store.write(pd.DataFrame(rows), name)
 
     tasks = [
@@ -167,17 +172,25 @@ def _certified(store: Store, config: RunConfig, workers: int, items: list[Item])
     return pd.concat([store.read(name) for name in names], ignore_index=True)
 
 
-def _run(title: str, store: Store, tasks, workers: int, limit: float, total: int, each: float):
+def _run(
+    title: str,
+    store: Store,
+    tasks: list[Task],
+    workers: int,
+    limit: float,
+    total: int,
+    each: float,
+) -> None:
     """each: expected seconds for an item."""
     todo = sum(len(task.items) for task in tasks)
     with stage(title, total, total - todo, each * todo / workers) as advance:
         run(mixed(tasks), workers, limit, store.path("workers.log"), advance)
 
 
-def _open_label(_):
+def _open_label(_: None) -> Callable[[Item], Row]:
     from experiments.truth import label
 
-    def answer(item: Item) -> dict:
+    def answer(item: Item) -> Row:
         if item.fault:
             return _row(item, no_pieces(item))
         return _row(item, label(item.query))
@@ -190,7 +203,7 @@ def no_pieces(item: Item) -> Truth:
     return Truth("uncertain", reason=f"no convex pieces: {item.fault}")
 
 
-def place(item: Item) -> dict:
+def place(item: Item) -> Row:
     """The columns of a row of pieces.parquet that identify its case."""
     return {
         "case": item.case,
@@ -200,9 +213,9 @@ def place(item: Item) -> dict:
     }
 
 
-def _lost(item: Item, loss: Loss) -> dict:
+def _lost(item: Item, loss: Loss) -> Row:
     return _row(item, Truth("uncertain", reason=f"labelling stopped: {loss.detail}"))
 
 
-def _row(item: Item, truth: Truth) -> dict:
+def _row(item: Item, truth: Truth) -> Row:
     return {**place(item), **truth_row(truth)}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import partial
 
@@ -11,11 +12,12 @@ from experiments.cases import families
 from experiments.cases.case import Case
 from experiments.cases.label import Truth
 from experiments.cases.scenario import ScenarioError
+from ofg import Query
 
 from . import ownfile, words
 from .config import RunConfig, load_files
 from .folder import origin
-from .folder.rows import body_row, case_row
+from .folder.rows import Row, body_row, case_row
 from .folder.store import Store
 from .processes.pool import Instead, Loss, Task, mark, mixed, run
 from .progress import stage
@@ -23,6 +25,8 @@ from .progress import stage
 REDRAWS = 50
 CHUNK = 16  # cases labelled by one process
 DRAWING = "drawing"  # the mark of a process while a scenario's own code runs
+
+Drawn = tuple[Row, list[Row]]  #: of cases.parquet, and of bodies.parquet
 
 
 @dataclass(frozen=True)
@@ -72,8 +76,8 @@ def make_cases(store: Store, config: RunConfig, workers: int) -> None:
     ]
     bodies = [store.shard("bodies", cases=name.key) for name in names]
 
-    def keep(i):
-        def done(results):
+    def keep(i: int) -> Callable[[list[Drawn]], None]:
+        def done(results: list[Drawn]) -> None:
             found = {row["body"]: row for _, rows in results for row in rows}
             store.write(pd.DataFrame(list(found.values())), bodies[i])
             store.write(pd.DataFrame([row for row, _ in results]), names[i])
@@ -104,16 +108,16 @@ def make_cases(store: Store, config: RunConfig, workers: int) -> None:
     store.write(cases, "cases.parquet")
 
 
-def _open(seed: int):
+def _open(seed: int) -> Callable[[Slot | Unlabelled], Drawn]:
     from experiments.truth import label
 
-    def answer(item: Slot | Unlabelled) -> tuple[dict, list[dict]]:
+    def answer(item: Slot | Unlabelled) -> Drawn:
         return _label(seed, item, label) if isinstance(item, Slot) else _uncertain(seed, item)
 
     return answer
 
 
-def _label(seed: int, slot: Slot, label) -> tuple[dict, list[dict]]:
+def _label(seed: int, slot: Slot, label: Callable[[Query], Truth]) -> Drawn:
     for attempt in range(REDRAWS):
         case = _draw(seed, slot, attempt)
         truth = label(case.query)
@@ -135,7 +139,7 @@ def _draw(seed: int, slot: Slot, attempt: int = 0) -> Case:
         mark("")
 
 
-def _uncertain(seed: int, lost: Unlabelled) -> tuple[dict, list[dict]]:
+def _uncertain(seed: int, lost: Unlabelled) -> Drawn:
     truth = Truth("uncertain", reason=f"labelling stopped: {lost.detail}")
     return _rows(_draw(seed, lost.slot), truth, 0)
 
@@ -161,5 +165,5 @@ def _no_case(seed: int, slot: Slot, why: str) -> ScenarioError:
     )
 
 
-def _rows(case: Case, truth: Truth, attempt: int) -> tuple[dict, list[dict]]:
+def _rows(case: Case, truth: Truth, attempt: int) -> Drawn:
     return case_row(case, truth, attempt), [body_row(case.query.a), body_row(case.query.b)]

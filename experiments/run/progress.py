@@ -15,6 +15,7 @@ from rich.progress import (
     MofNCompleteColumn,
     Progress,
     ProgressColumn,
+    Task,
     TextColumn,
     TimeElapsedColumn,
 )
@@ -46,7 +47,7 @@ class Forecast:
         self.foreseen: dict[
             str, tuple[float, float]
         ] = {}  # stage -> remaining seconds, and when they were estimated
-        self.current, self.since = None, 0.0
+        self.current, self.since = "", 0.0  # "": between two stages
         self.history: list[tuple[float, float]] = []  # seconds elapsed, estimated seconds left
 
     def begin(self, name: str, seconds: float | None = None, skipped: float = 0.0) -> None:
@@ -71,7 +72,7 @@ class Forecast:
 
     def end(self) -> None:
         self.done[self.current], self.spent[self.current] = 1.0, self.clock() - self.since
-        self.current = None
+        self.current = ""
 
     def left(self) -> float:
         total = 0.0
@@ -128,7 +129,7 @@ class _Left(ProgressColumn):
         super().__init__()
         self.forecast = forecast
 
-    def render(self, task) -> Text:
+    def render(self, task: Task) -> Text:
         return Text(
             "" if task.finished else f"run: {spoken(self.forecast.left())} left", style="cyan"
         )
@@ -150,7 +151,7 @@ def forecast(plan: dict[str, float]) -> Iterator[Forecast]:
 
 @contextlib.contextmanager
 def stage(
-    title: str, total: float, done: float = 0.0, seconds: float | None = None
+    title: str, total: float, done: int = 0, seconds: float | None = None
 ) -> Iterator[Callable[[float], None]]:
     """Yields advance(n), n of `total`. done: finished earlier. seconds: the expected duration of
     the stage, if known.

@@ -21,7 +21,7 @@ from __future__ import annotations
 import contextlib
 import gc
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter_ns
@@ -55,6 +55,7 @@ NEAR = 1e-2  # of gap over size: cases closer to contact are timed separately
 LEAST_ROUNDS = 3
 START = 1.2  # seconds: a process that imports every engine (0.8 in `quick`, 2.3 in `standard`)
 COLUMNS = ["question", "faces", "situation", "method", "case", "build_ns", "rounds_ns"]
+Times = tuple[str, str, str, str, str, int, list[int]]  #: a row of COLUMNS
 PROBE = "(noise probe)"
 FLOOR = "(floor)"
 # if the process died: a row of its current method, with the reason in place of the case
@@ -216,13 +217,13 @@ def situation_of(cases: pd.DataFrame) -> pd.Series:
     return pd.Series(np.where(cases.question == "overlap", overlap, cases.label), cases.index)
 
 
-def measure_bin(store: Store, config: RunConfig, bin_: Bin, seconds: float) -> list[tuple]:
+def measure_bin(store: Store, config: RunConfig, bin_: Bin, seconds: float) -> list[Times]:
     """Rows of COLUMNS for one bin. If a method fails, or the process dies or hangs, the bin is
     timed again without the current method.
     """
-    lost = []
+    lost: list[Times] = []
     while True:
-        found = []
+        found: list[list[Times] | Lost] = []
         task = Task(
             _open,
             config.timing,
@@ -266,7 +267,7 @@ class _Failed(Exception):
 
 
 @contextlib.contextmanager
-def _turn(label: str):
+def _turn(label: str) -> Iterator[None]:
     """A turn on behalf of one method. Any error in it is attributed to that method."""
     mark(label)
     try:
@@ -275,10 +276,10 @@ def _turn(label: str):
         raise _Failed(label, f"error, {words.of_error(error)}") from error
 
 
-def _open(timing: TimingChoice):
+def _open(timing: TimingChoice) -> Callable[[Bin], list[Times] | Lost]:
     os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 
-    def answer(bin_: Bin) -> list[tuple] | Lost:
+    def answer(bin_: Bin) -> list[Times] | Lost:
         try:
             return time_bin(bin_, timing)
         except _Failed as failed:
@@ -287,7 +288,7 @@ def _open(timing: TimingChoice):
     return answer
 
 
-def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
+def time_bin(bin_: Bin, timing: TimingChoice) -> list[Times]:
     """Rows of COLUMNS for one bin. The process is marked with the label of each method before
     its turn.
     """
@@ -296,7 +297,7 @@ def time_bin(bin_: Bin, timing: TimingChoice) -> list[tuple]:
         with _turn(label):
             groups.append(_prepare(label, bin_, answered))
     groups.append([Call(PROBE, "", 0, _noise_probe())])
-    times = {call: [] for group in groups for call in group}
+    times: dict[Call, list[int]] = {call: [] for group in groups for call in group}
     order = np.random.default_rng(0)
     gc.collect()
     gc.disable()
@@ -359,7 +360,7 @@ def _prepare(label: str, bin_: Bin, answered: set[str]) -> list[Call]:
     """
     (method,) = registry.make(label)
     cheapest = type(method)(**{**method.parameters, **method.cheapest})
-    calls = []
+    calls: list[Call] = []
     for case in (c for c in bin_.cases if c.id in answered):
         if len(calls) % 5 == 0:
             calls.append(Call(label, FLOOR, 0, cheapest.ready(floor_query(bin_.question))))
@@ -374,15 +375,16 @@ def floor_query(question: str) -> Query:
     for a method.
     """
     corner = Body.convex(np.vstack([np.zeros(3), np.eye(3)]), "tetrahedron")
+    far = Pose(position=np.array([1000.0, 0, 0]))
     motion = (
         Motion()
         if question == "overlap"
-        else Motion((0.1, 0, 0), angle=0.1 if question == "motion" else 0.0)
+        else Motion(np.array([0.1, 0, 0]), angle=0.1 if question == "motion" else 0.0)
     )
-    return Query(question, corner, corner, Pose(), Pose(position=(1000, 0, 0)), motion)
+    return Query(question, corner, corner, Pose(), far, motion)
 
 
-def _noise_probe():
+def _noise_probe() -> Callable[[], float]:
     """The same arithmetic every time: the variation of its duration measures the disturbance of
     the machine.
     """

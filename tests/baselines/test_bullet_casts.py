@@ -6,8 +6,8 @@ from dataclasses import replace
 import pytest
 
 from baselines import native, registry
-from baselines.conformance import bar, body, sweep
 from baselines.contract import MissingEngine
+from baselines.easy_queries import bar, body, sweep
 from baselines.native import library
 from ofg import Motion, Pose, Query
 

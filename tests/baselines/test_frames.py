@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from baselines import registry
-from baselines.conformance import bar, body
 from baselines.contract import Method, Unsupported, Verdict
+from baselines.easy_queries import bar, body
 from baselines.frames import about_origins, one_mover, seen_from, shifted, stated
 from baselines.units import normalised
 from ofg import Motion, Pose, Query

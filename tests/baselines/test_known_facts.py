@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from baselines import fcl, ipctk, registry
-from baselines.conformance import body, box, sweep
+from baselines import fcl_heap, ipctk, registry
 from baselines.contract import Unsupported
+from baselines.easy_queries import body, box, sweep
 from experiments.cases.families import get
 from experiments.truth import label
 from ofg import Motion, Pose, Query
@@ -34,7 +34,7 @@ def test_fcl_signed_distance_aborts_the_process_near_touching():
 import numpy as np
 from scipy.spatial.transform import Rotation
 from baselines import registry
-from baselines.conformance import body
+from baselines.easy_queries import body
 from ofg import Pose, Query
 method, cube = registry.make("fcl-distance")[0], body("convex")
 for seed in range(2000):
@@ -88,7 +88,7 @@ def test_fcl_linear_motion_does_not_depend_on_stale_memory(name):
     ask = registry.make(name)[0].prepare(query)
     answers = set()
     for stale in (0, 0x7F, 0xFF, 0x3F):
-        fcl._fill_motions(stale)
+        fcl_heap.fill_motions(stale)
         answers.add(ask())
     assert len(answers) == 1 and answers.pop().hit
 
@@ -101,7 +101,7 @@ def test_bullet_margin_shows_below_2e_3_and_is_corrected():
 
 def test_bullet_and_its_removal_print_nothing():
     program = (
-        "import gc; from baselines import registry; from baselines.conformance import overlap; f ="
+        "import gc; from baselines import registry; from baselines.easy_queries import overlap; f ="
         " registry.make('bullet')[0].prepare(overlap('union', (3, 0, 0))); f(); del f; gc.collect()"
     )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)

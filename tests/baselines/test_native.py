@@ -14,8 +14,8 @@ import pandas as pd
 import pytest
 
 from baselines import native, registry
-from baselines.conformance import body, overlap, sweep
 from baselines.contract import Unsupported
+from baselines.easy_queries import body, overlap, sweep
 from ofg import Motion, Pose, Query
 
 COMPILER = shutil.which("c++")

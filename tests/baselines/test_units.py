@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from baselines import registry
-from baselines.conformance import body, box
+from baselines.easy_queries import body, box
 from baselines.units import normalised
 from ofg import Body, Motion, Pose, Query
 

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from experiments.cli.reading import reading
+from experiments.cli.reading import opened, reading
 
 Run = Annotated[
     Path | None,
@@ -62,6 +62,8 @@ def native(
             return
         pinned = None if core < 0 else core
         with reading(run) if run else nullcontext():
+            if run:
+                opened(run, False)  # before anything is built
             study(run, cases, poses, rounds, seed, pinned, python, out)
     except NativeError as error:
         typer.echo(str(error), err=True)

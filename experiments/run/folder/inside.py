@@ -30,7 +30,7 @@ def inside(folder: Path, *names: str) -> Path:
     return path
 
 
-def checked(name: str, folder) -> str:
+def checked(name: str, folder: Path) -> str:
     """The name if it is that of a single file. Outside if not."""
     fine = isinstance(name, str) and name not in ("", ".", "..") and len(name) <= LONGEST
     if not fine or not name.isprintable() or "/" in name or "\\" in name:

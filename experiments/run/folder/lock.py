@@ -50,7 +50,7 @@ class Lock:
         self._file.flush()
         return self
 
-    def __exit__(self, *_) -> None:
+    def __exit__(self, *_: object) -> None:
         # before the lock is released, so that no other process's file is removed
         self.path.unlink(missing_ok=True)
         self._file.close()

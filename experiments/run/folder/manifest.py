@@ -20,7 +20,7 @@ from experiments.run.config import RunConfig
 LIBRARIES = ("numpy", "scipy", "pandas", "pyarrow", "python-flint", "trimesh", "coacd", "ofg")
 
 
-def machine() -> dict:
+def machine() -> dict[str, object]:
     """Processor, frequency, memory, load, system: without the machine's name or any path."""
     frequency = psutil.cpu_freq()
     return {
@@ -34,12 +34,12 @@ def machine() -> dict:
     }
 
 
-def versions(config: RunConfig) -> dict:
+def versions(config: RunConfig) -> dict[str, str | None]:
     engines = {m.engine for spec in config.asked for m in registry.make(spec)}
     return {name: version(name) for name in sorted(engines | set(LIBRARIES))}
 
 
-def build() -> dict:
+def build() -> dict[str, str]:
     """Compiler and flags of the project's native code, and the instruction set that it uses
     here.
     """
@@ -117,6 +117,11 @@ def hashes(folder: Path) -> dict[str, str]:
         if name.parts[0] in DERIVED or name.parts[0].startswith("."):
             continue
         if path.is_file() and not path.is_symlink():
-            with path.open("rb") as stream:
-                found[name.as_posix()] = hashlib.file_digest(stream, "sha256").hexdigest()
+            found[name.as_posix()] = digest(path)
     return found
+
+
+def digest(path: Path) -> str:
+    """SHA-256 (hex) of a file."""
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()

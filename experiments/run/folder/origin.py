@@ -20,7 +20,7 @@ CODE = (".py", ".csv")  # of baselines: units.csv, which affects how methods ans
 READERS = ("publish",)  # parts of `experiments` that only read finished runs
 
 
-def facts(engine: str | None = None) -> dict:
+def facts(engine: str | None = None) -> dict[str, object]:
     """The code and the versions of the libraries, and of one engine's distribution if given."""
     names = (*manifest.LIBRARIES, *([engine] if engine else []))
     return {"code": code(), "versions": {name: manifest.version(name) for name in names}}
@@ -37,7 +37,15 @@ def code() -> str:
         if p.suffix in CODE
         and not (name == "experiments" and p.relative_to(ROOT / name).parts[0] in READERS)
     ]
-    for path in [*paths, *(Path(importlib.util.find_spec(name).origin) for name in NATIVE)]:
+    for path in [*paths, *map(_compiled, NATIVE)]:
         content = hashlib.sha256(path.read_bytes()).hexdigest()
         found.update(f"{path.name} {content}\n".encode())
     return found.hexdigest()[:32]
+
+
+def _compiled(module: str) -> Path:
+    """The file of a compiled module. ImportError if it is missing."""
+    spec = importlib.util.find_spec(module)
+    if spec is None or spec.origin is None:
+        raise ImportError(f"The compiled module {module} is missing; make it with: make build")
+    return Path(spec.origin)

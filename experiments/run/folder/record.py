@@ -4,11 +4,14 @@ refused.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import pyarrow.parquet as parquet
+from numpy.typing import ArrayLike
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from . import given, inside
@@ -24,13 +27,12 @@ NAME, TEXT, NUMBER, FINITE, WHOLE, TRUTH = (
 )
 LABELS = ("hit", "clear", "uncertain")
 QUESTION = ("overlap", "translation", "motion")
-_SIDES = {
-    f"{name}{side}": kind
-    for side in ("", "_b")
-    for name, kind in {"displacement": 3, "axis": 3, "angle": FINITE, "about": 3}.items()
-}
+#: the content of a column: see COLUMNS
+Kind = str | int | tuple[str, ...]
+_SIDE: dict[str, Kind] = {"displacement": 3, "axis": 3, "angle": FINITE, "about": 3}
+_SIDES = {f"{name}{side}": kind for side in ("", "_b") for name, kind in _SIDE.items()}
 
-_TRUTH = {
+_TRUTH: dict[str, Kind] = {
     "label": LABELS,
     "t_lo": NUMBER,
     "t_hi": NUMBER,
@@ -42,7 +44,7 @@ _TRUTH = {
     "touching": TRUTH,
     "reason": TEXT,
 }
-_BODY = {
+_BODY: dict[str, Kind] = {
     "body": NAME,
     "name": NAME,
     "kind": ("convex", "mesh", "union"),
@@ -54,7 +56,7 @@ _BODY = {
 
 #: file -> column -> its content: a kind above, one of several strings, or a list of so many finite
 #: numbers (0: of any length).
-COLUMNS: dict[str, dict] = {
+COLUMNS: dict[str, dict[str, Kind]] = {
     "cases.parquet": {
         "case": NAME,
         "scenario": NAME,
@@ -145,12 +147,12 @@ class Facts(BaseModel):
     versions: dict[str, str | None] = {}
     started: str = "-"
     commit: str = "-"
-    before: dict = {}
+    before: dict[str, Any] = {}
 
 
-def facts(path: Path) -> dict:
+def facts(path: Path) -> dict[str, Any]:
     """The content of manifest.json. RecordError if it is invalid."""
-    found = given.json_in(path, "The file")
+    found: dict[str, Any] = given.json_in(path, "The file")
     try:
         Facts.model_validate(found)
     except ValidationError as error:
@@ -213,9 +215,9 @@ def _rows(path: Path) -> pd.DataFrame:
         raise _damaged(path, f"it cannot be read ({given.reason(error)})") from error
 
 
-def _wrong(values: pd.Series, kind, may_be_empty: bool) -> int | None:
+def _wrong(values: pd.Series, kind: Kind, may_be_empty: bool) -> int | None:
     """The first row with an invalid value."""
-    if kind in (NUMBER, FINITE, WHOLE, TRUTH):
+    if isinstance(kind, str) and kind in (NUMBER, FINITE, WHOLE, TRUTH):
         return _first(_wrong_numbers(values, kind, may_be_empty))
     if isinstance(kind, int):
         return _first([not _is_list(v, kind, may_be_empty) for v in values])
@@ -223,18 +225,20 @@ def _wrong(values: pd.Series, kind, may_be_empty: bool) -> int | None:
         place, words = pd.factorize(values, use_na_sentinel=False)
     except TypeError:  # lists and the like
         return 0
-    fine = is_name if kind == NAME else lambda v: isinstance(v, str) and (kind == TEXT or v in kind)
+    fine: Callable[[Any], bool] = (
+        is_name if kind == NAME else lambda v: isinstance(v, str) and (kind == TEXT or v in kind)
+    )
     return _first(np.array([not fine(w) for w in words], bool)[place])
 
 
-def is_name(value) -> bool:
+def is_name(value: object) -> bool:
     """Whether a text is printable and safe as a path: a case is scenario/level/index."""
     if not isinstance(value, str) or not value.strip() or not value.isprintable() or "\\" in value:
         return False
     return len(value) <= inside.LONGEST and not {"", ".", ".."} & set(value.split("/"))
 
 
-def _wrong_numbers(values: pd.Series, kind, may_be_empty: bool) -> np.ndarray:
+def _wrong_numbers(values: pd.Series, kind: str, may_be_empty: bool) -> np.ndarray:
     """(n,) truth values. A NUMBER may be missing (NaN), a FINITE one may not; neither is
     infinite.
     """
@@ -252,7 +256,7 @@ def _wrong_numbers(values: pd.Series, kind, may_be_empty: bool) -> np.ndarray:
     )
 
 
-def _is_list(value, size: int, may_be_empty: bool) -> bool:
+def _is_list(value: object, size: int, may_be_empty: bool) -> bool:
     """Whether it is a flat array of finite numbers."""
     fine = isinstance(value, (np.ndarray, list)) and (not size or len(value) == size)
     array = np.asarray(value) if fine else np.empty(0, object)
@@ -264,7 +268,7 @@ def _is_list(value, size: int, may_be_empty: bool) -> bool:
     )
 
 
-def _said(kind) -> str:
+def _said(kind: Kind) -> str:
     if isinstance(kind, tuple):
         return f"one of {', '.join(kind)}"
     if isinstance(kind, int):
@@ -276,7 +280,7 @@ def _said(kind) -> str:
     )
 
 
-def _first(bad) -> int | None:
+def _first(bad: ArrayLike) -> int | None:
     found = np.flatnonzero(np.asarray(bad, bool))
     return int(found[0]) if len(found) else None
 

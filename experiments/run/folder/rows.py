@@ -7,6 +7,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -22,6 +23,7 @@ class RowError(ValueError):
     """A row that is not a valid body or case; the message names the file and the row."""
 
 
+Row = dict[str, object]  #: of a table, by column
 MOTION = (
     "displacement",
     "axis",
@@ -34,7 +36,7 @@ MOTION = (
 )
 
 
-def case_row(case: Case, truth: Truth, attempt: int) -> dict:
+def case_row(case: Case, truth: Truth, attempt: int) -> Row:
     """One row of cases.parquet. attempt: the number of rejected draws before this one."""
     q = case.query
     return {
@@ -60,7 +62,7 @@ def case_row(case: Case, truth: Truth, attempt: int) -> dict:
     }
 
 
-def truth_row(truth: Truth) -> dict:
+def truth_row(truth: Truth) -> Row:
     """The columns of a row that contain a truth."""
     return {
         "label": truth.label,
@@ -75,7 +77,7 @@ def truth_row(truth: Truth) -> dict:
     }
 
 
-def _motion_row(motion: Motion, side: str) -> dict:
+def _motion_row(motion: Motion, side: str) -> Row:
     """A's motion is in `displacement`, `axis`, `angle` and `about`; B's in columns of the same
     names with the suffix "_b".
     """
@@ -106,7 +108,7 @@ def filled(cases: pd.DataFrame) -> pd.DataFrame:
     return cases.assign(**missing)
 
 
-def body_row(body: Body) -> dict:
+def body_row(body: Body) -> Row:
     """One row of bodies.parquet: flat arrays; the pieces of a union one after another, face
     indices into all vertices.
     """
@@ -122,7 +124,7 @@ def body_row(body: Body) -> dict:
     }
 
 
-def body_of(row) -> Body:
+def body_of(row: Any) -> Body:
     """The body of a row with its original vertices and faces. BodyError if it is invalid, or if
     its content does not match its recorded digest.
     """
@@ -137,7 +139,7 @@ def body_of(row) -> Body:
     return body
 
 
-def _certificate(text: str):
+def _certificate(text: str) -> Any:
     """The stored certificate; the text itself if it is not JSON, or too deep, which the checker
     refuses.
     """
@@ -147,7 +149,7 @@ def _certificate(text: str):
         return text
 
 
-def tags_of(text: str) -> dict:
+def tags_of(text: str) -> dict[str, str | float]:
     try:
         tags = json.loads(text)
     except (ValueError, RecursionError) as error:
@@ -164,7 +166,7 @@ def cases_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> Iterable[tuple[Case, 
 
     RowError, which names the file and the row, for an invalid body or case.
     """
-    made = {}
+    made: dict[str, Body] = {}
     for row in bodies.itertuples():
         with named("bodies.parquet", row.Index, row.body):
             made[row.body] = body_of(row)
@@ -177,7 +179,7 @@ def cases_of(cases: pd.DataFrame, bodies: pd.DataFrame) -> Iterable[tuple[Case, 
         yield found
 
 
-def _case(row, made) -> tuple[Case, Truth]:
+def _case(row: Any, made: dict[str, Body]) -> tuple[Case, Truth]:
     query = Query(
         row.question,
         made[row.body_a],
@@ -205,7 +207,7 @@ def _case(row, made) -> tuple[Case, Truth]:
 
 
 @contextmanager
-def named(file: str, index, name: str) -> Iterator[None]:
+def named(file: str, index: int, name: str) -> Iterator[None]:
     """Convert errors of a row to RowError."""
     try:
         yield

@@ -17,7 +17,7 @@ FORMAT = 1  # incremented when the columns of a shard or their meaning change
 LENGTH = 32  # hexadecimal digits of a key, and of a digest
 
 
-def key(made_of: dict) -> str:
+def key(made_of: dict[str, object]) -> str:
     """The name determined by these facts (anything that JSON supports)."""
     text = json.dumps({"format": FORMAT, **made_of}, sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]

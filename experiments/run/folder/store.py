@@ -9,7 +9,9 @@ import hashlib
 import json
 import shutil
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
@@ -38,7 +40,7 @@ class Store:
     contains shards of an unfinished run and is removed at its end.
     """
 
-    def __init__(self, folder):
+    def __init__(self, folder: str | Path):
         self.folder = Path(folder)
 
     def path(self, *names: str) -> Path:
@@ -86,17 +88,15 @@ class Store:
                     f"differs in: {changed}). Choose another folder with --out, or remove that "
                     "one."
                 )
-            if changed := ownfile.changed(config, self.folder):
-                raise StoreError(changed)
+            if fault := ownfile.changed(config, self.folder):
+                raise StoreError(fault)
         if not (known and self._sound("manifest.json")):
             # the configuration of these tables is unknown; shards are identified by their content
             self.folder.joinpath("manifest.json").unlink(missing_ok=True)
         # the copies first: if config.json exists, so do they
         for name, path in ownfile.copies(config).items():
             if not self.has(ownfile.FOLDER, name):
-                self.write_file(
-                    lambda to, path=path: shutil.copyfile(path, to), ownfile.FOLDER, name
-                )
+                self.write_file(partial(shutil.copyfile, path), ownfile.FOLDER, name)
         self.write_text(config.model_dump_json(indent=1) + "\n", "config.json")
 
     @property
@@ -113,7 +113,7 @@ class Store:
         )
 
     @property
-    def facts(self) -> dict:
+    def facts(self) -> dict[str, Any]:
         """The content of manifest.json; empty if there is none. StoreError if it is invalid."""
         path = self.folder / "manifest.json"
         return record.facts(path) if path.exists() else {}
@@ -125,7 +125,7 @@ class Store:
     def has(self, *names: str) -> bool:
         return self.folder.joinpath(*names).exists()
 
-    def shard(self, kind: str, **made_of) -> Shard:
+    def shard(self, kind: str, **made_of: object) -> Shard:
         """The part of `kind` (a folder of parts/) that these facts determine."""
         return Shard(inside(self.folder, "parts", kind), key({"kind": kind, **made_of}))
 

@@ -31,6 +31,8 @@ ANSWER = 120.0  # seconds for the fork server to start, or to answer
 STARTS = 5  # fork servers that may die in a row without progress
 VARIABLE = "OFG_RUNNER"  # in the environment of everything that a runner starts: its process id
 
+News = dict[str, Any]  #: from the fork server: see forker._Server._say
+
 
 @dataclass
 class Worker:
@@ -76,15 +78,19 @@ class Worker:
         os.close(self.output)
 
 
+Ended = tuple[Worker, int | None]  #: with its exit code: see Crew.wait
+
+
 class Crew:
     """All workers of one `pool.run`. A context: at its end, nothing that it started is left."""
 
     def __init__(self, log: Path):
-        self.log, self.workers, self.news, self.deaths = Log(log), {}, [], 0
+        self.log, self.deaths = Log(log), 0
+        self.workers: dict[int, Worker] = {}
+        self.news: list[News] = []
         self.looked = monotonic()
-        self.ended: list[
-            tuple[Worker, None]
-        ] = []  # with a fork server that died while another worker was started
+        # with a fork server that died while another worker was started
+        self.ended: list[Ended] = []
 
     @property
     def busy(self) -> bool:
@@ -95,7 +101,7 @@ class Crew:
         process.adopt_orphans()
         return self
 
-    def __exit__(self, *error) -> None:
+    def __exit__(self, *error: object) -> None:
         for worker in list(self.workers.values()):
             process.kill_group(worker.pid)
         with contextlib.suppress(_ServerGone, MachineError):
@@ -109,7 +115,7 @@ class Crew:
         process.adopt_orphans(False)
         self.log.close()
 
-    def start(self, job, payload: Sequence[Any]) -> None:
+    def start(self, job: Any, payload: Sequence[Any]) -> None:
         """Start a fresh worker for the job. payload: see worker.work. MachineError if none can
         be started.
         """
@@ -123,10 +129,11 @@ class Crew:
                     f"No process could be started ({error.strerror or error}). {RESUME}"
                 ) from error
 
-    def _start(self, job, payload) -> None:
+    def _start(self, job: Any, payload: Sequence[Any]) -> None:
         server = _server()
         page, (results, tell), (output, say) = Page(), os.pipe(), os.pipe()
-        os.set_blocking(results, False), os.set_blocking(output, False)
+        for end in (results, output):
+            os.set_blocking(end, False)
         task = os.memfd_create("ofg-task", os.MFD_CLOEXEC)
         try:
             with open(task, "wb", closefd=False) as stream:
@@ -135,14 +142,16 @@ class Crew:
             server.ask([task, tell, page.fd, say])
             pid = self._await("pid")["pid"]
         except BaseException:
-            page.close(), os.close(results), os.close(output)
+            page.close()
+            for fd in (results, output):
+                os.close(fd)
             raise
         finally:
             for fd in (task, tell, say):
                 os.close(fd)
         self.workers[pid] = Worker(pid, page, results, output, job)
 
-    def wait(self) -> list[tuple[Worker, int | None]]:
+    def wait(self) -> list[Ended]:
         """Workers that have ended, each with its exit code: -n for signal n, None if its fork
         server died.
         """
@@ -154,12 +163,14 @@ class Crew:
         except _ServerGone:
             return self._bury_all()
 
-    def _wait(self) -> list[tuple[Worker, int | None]]:
-        server, ended = _server(), []
-        listened = [
+    def _wait(self) -> list[Ended]:
+        server = _server()
+        ended: list[Ended] = []
+        listened: list[socket.socket | int] = [server.channel]
+        listened += [
             fd for w in self.workers.values() for fd in (w.results, w.output) if fd not in w.deaf
         ]
-        ready, _, _ = select.select([server.channel, *listened], [], [], 0 if self.news else TICK)
+        ready, _, _ = select.select(listened, [], [], 0 if self.news else TICK)
         late = monotonic() - self.looked > STOPPED
         for worker in self.workers.values():
             self._hear(worker)
@@ -190,7 +201,7 @@ class Crew:
         worker.close()
         return worker
 
-    def _bury_all(self) -> list[tuple[Worker, None]]:
+    def _bury_all(self) -> list[Ended]:
         """The fork server died: kill what it had started, which the kernel made our own
         children.
         """
@@ -203,7 +214,7 @@ class Crew:
                 os.waitpid(pid, 0)
         process.kill_children(VARIABLE, str(os.getpid()))
         self.news.clear()
-        ended = [(self._buried(pid), None) for pid in list(self.workers)]
+        ended: list[Ended] = [(self._buried(pid), None) for pid in list(self.workers)]
         if self.deaths >= STARTS:
             raise MachineError(
                 f"The process that starts the workers died {STARTS} times without progress in "
@@ -211,7 +222,7 @@ class Crew:
             )
         return ended
 
-    def _await(self, kind: str) -> dict:
+    def _await(self, kind: str) -> News:
         """The next message of one kind; others are kept for `wait`."""
         while True:
             said = _server().hear()
@@ -239,7 +250,7 @@ class _Server:
     process needs its own.
     """
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.owner = os.getpid()
         self.channel, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.channel.settimeout(ANSWER)
@@ -264,14 +275,15 @@ class _Server:
         except (BrokenPipeError, ConnectionError) as error:
             raise _ServerGone from error
 
-    def hear(self) -> dict:
+    def hear(self) -> News:
         try:
             message = self.channel.recv(4096)
         except (OSError, TimeoutError) as error:
             raise _ServerGone from error
         if not message:
             raise _ServerGone
-        return json.loads(message)
+        news: News = json.loads(message)
+        return news
 
 
 _current: _Server | None = None

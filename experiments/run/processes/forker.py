@@ -61,7 +61,8 @@ def _check(runner: int) -> None:
 
 class _Server:
     def __init__(self, channel: socket.socket, runner: int):
-        self.channel, self.runner, self.workers = channel, runner, set()
+        self.channel, self.runner = channel, runner
+        self.workers: set[int] = set()
         self.wake, wakened = os.pipe()
         for end in (self.wake, wakened):
             os.set_blocking(end, False)
@@ -69,10 +70,11 @@ class _Server:
         signal.signal(signal.SIGCHLD, lambda *_: None)
 
     def serve(self) -> None:
+        ends: list[socket.socket | int] = [self.channel, self.wake]
         self._say(ready=os.getpid())
         while True:
             _check(self.runner)
-            ready, _, _ = select.select([self.channel, self.wake], [], [])
+            ready, _, _ = select.select(ends, [], [])
             if self.wake in ready:
                 with contextlib.suppress(BlockingIOError):
                     os.read(self.wake, 4096)
@@ -134,5 +136,5 @@ class _Server:
                     process.kill_children()  # processes that left their group
                 self._say(died=info.si_pid, code=os.waitstatus_to_exitcode(status))
 
-    def _say(self, **what) -> None:
+    def _say(self, **what: int | str) -> None:
         self.channel.send(json.dumps(what).encode())

@@ -12,6 +12,7 @@ import mmap
 import os
 import signal
 import struct
+from collections.abc import Iterator
 from time import monotonic, process_time
 
 import psutil
@@ -25,7 +26,7 @@ _number = 0
 
 
 @contextlib.contextmanager
-def limit(seconds: float):
+def limit(seconds: float) -> Iterator[None]:
     """End this process if the block takes more processor time, in all its threads.
 
     The process dies by SIGPROF, whose default action needs no interpreter lock: native code that
@@ -69,21 +70,24 @@ class Page:
     finds a new limit, so that it never charges too much.
     """
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.fd = os.memfd_create("ofg-limits", os.MFD_CLOEXEC)
         os.ftruncate(self.fd, _SIZE)
         self._memory = mmap.mmap(self.fd, _SIZE)
-        self._number, self._begun, self._spent = -1, monotonic(), None
+        self._number, self._begun = -1, monotonic()
+        self._spent: float | None = None
 
     @property
     def number(self) -> int:
         """Number of the active limit: another number, another limit."""
-        return _HEAD.unpack_from(self._memory)[0]
+        number: int = _HEAD.unpack_from(self._memory)[0]
+        return number
 
     @property
     def seconds(self) -> float:
         """The active limit, 0 if there is none."""
-        return _HEAD.unpack_from(self._memory)[1]
+        seconds: float = _HEAD.unpack_from(self._memory)[1]
+        return seconds
 
     @property
     def mark(self) -> str:
@@ -103,11 +107,9 @@ class Page:
         if self._spent is None:  # measured late, in the worker's favour
             self._spent = processor_seconds(pid) if elapsed > min(1.0, self.seconds) else None
             return ""
-        over = self.seconds and elapsed > self.seconds + SLACK
-        return "timeout" if over and self._used(pid) > self.seconds + SLACK else ""
-
-    def _used(self, pid: int) -> float:
-        return processor_seconds(pid) - self._spent
+        most = self.seconds + SLACK
+        over = self.seconds and elapsed > most
+        return "timeout" if over and processor_seconds(pid) - self._spent > most else ""
 
     def forgive(self) -> None:
         """Restart the wall clock: the runner itself was stopped and cannot account for the time

@@ -68,7 +68,7 @@ class Task:
     open: Callable[[Any], Callable[[Any], Any]]
     argument: Any
     items: Sequence[Any]
-    done: Callable[[list], None]
+    done: Callable[[list[Any]], None]
     lost: Callable[[Any, Loss], Any]
 
 
@@ -153,7 +153,9 @@ def _may_start(job: _Job, running: list[_Job], workers: int) -> bool:
     return len(running) < workers and not any(other.undisturbed for other in running)
 
 
-def _payload(job: _Job, prepare, seconds: float, memory: int) -> tuple:
+def _payload(
+    job: _Job, prepare: Callable[[], None] | None, seconds: float, memory: int
+) -> tuple[Any, ...]:
     if job.stage == "control":
         return None, _control, None, [2], seconds, memory
     left = job.items[len(job.results) :]
@@ -167,7 +169,7 @@ def _payload(job: _Job, prepare, seconds: float, memory: int) -> tuple:
     )
 
 
-def _control(_) -> Callable[[int], int]:
+def _control(_: None) -> Callable[[int], int]:
     return lambda item: 2 * item
 
 

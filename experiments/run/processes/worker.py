@@ -28,7 +28,7 @@ class Channel:
     def __init__(self, fd: int):
         self.fd, self.owner = fd, os.getpid()
 
-    def send(self, kind: str, value=None) -> None:
+    def send(self, kind: str, value: object = None) -> None:
         """Send a frame. The process ends if that fails: its results would be lost."""
         if os.getpid() != self.owner:
             os._exit(0)

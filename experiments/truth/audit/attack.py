@@ -21,7 +21,7 @@ import numpy as np
 
 from experiments.cases import families
 from experiments.truth import check_many, label_many
-from experiments.truth.check.checker import FRAMES
+from experiments.truth.check.obligations import FRAMES
 
 FALSE, WEAKER = "must be refused", "refused unless redundant"
 

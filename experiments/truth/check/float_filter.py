@@ -14,8 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import checker, geometry
+from . import geometry
 from .balls import add, nearest_double, number, rational, rotation, vector
+from .obligations import Apart, Without
 
 UNIT = 2.0**-53
 
@@ -24,8 +25,8 @@ def settle(obligations) -> list[tuple]:
     """(j, vertices, near) for each obligation j that doubles leave open; the indices of its open
     parts, None for all.
     """
-    apart = [(j, o) for j, o in enumerate(obligations) if type(o) is checker.Apart]
-    points = [(j, o) for j, o in enumerate(obligations) if type(o) is not checker.Apart]
+    apart = [(j, o) for j, o in enumerate(obligations) if type(o) is Apart]
+    points = [(j, o) for j, o in enumerate(obligations) if type(o) is not Apart]
     with np.errstate(all="ignore"):
         return sorted(_apart(apart) + _points(points), key=lambda entry: entry[0])
 
@@ -153,7 +154,7 @@ def _apart(jobs) -> list[tuple]:
 
 
 def _bend(N, P, Q, n, s, e, sign, fixed, of_p, of_q):  # noqa: PLR0913 - the bound's symbols
-    """The bound M of checker._bend, a row per vertex of Q. A fixed plane uses the reach of all
+    """The bound M of proof._bend, a row per vertex of Q. A fixed plane uses the reach of all
     of P, which needs no support.
     """
     points, q_of = of_q
@@ -187,9 +188,9 @@ def _points(jobs) -> list[tuple]:
         return []
     os = [o for _, o in jobs]
     N = Numbers([o.pair for o in os])
-    vertex = np.array([type(o) is checker.Without for o in os])
+    vertex = np.array([type(o) is Without for o in os])
     of_b, t = np.array([o.of_b for o in os]), np.array([o.t for o in os])
-    x = np.array([o.v if type(o) is checker.Without else _offset(o) for o in os])
+    x = np.array([o.v if type(o) is Without else _offset(o) for o in os])
     span = N.reach + np.abs(x).sum(1)
     between = N.dp - t[:, None] * N.d
     # A vertex of one body (B's if of_b) relative to the other's centre of rotation; a point already

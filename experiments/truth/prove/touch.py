@@ -16,8 +16,9 @@ from flint import fmpq, fmpq_mat
 from scipy.optimize import linprog
 
 from experiments.truth.check.balls import BITS, add, dot, mul, nearest_double, rational, vector
-from experiments.truth.check.checker import FRAMES, Apart, Refused, apart
 from experiments.truth.check.geometry import Pair
+from experiments.truth.check.obligations import FRAMES, Apart, Refused
+from experiments.truth.check.proof import apart
 from ofg import Query
 
 from .cone import separating

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from baselines import registry
-from baselines.conformance import box
+from baselines.easy_queries import box
 from baselines.tolerance import Tolerance
 from experiments.analysis import costs, metrics, outcome
 from experiments.cases.case import Case

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from baselines.conformance import box
+from baselines.easy_queries import box
 from experiments.analysis import nesting
 from experiments.run.folder.rows import body_row
 from ofg import Body, Motion, Pose

@@ -222,6 +222,12 @@ def test_the_command_says_in_a_line_what_it_lacks(monkeypatch):
     assert done.exit_code == 1 and "pip install cmake" in done.output
 
 
+def test_a_folder_that_is_no_run_is_named():
+    """It was said to be a run that is not finished, after everything had been built."""
+    done = CliRunner().invoke(app, ["native", "nowhere"])
+    assert isinstance(done.exception, StoreError) and "no run folder" in str(done.exception)
+
+
 def test_the_report_shows_what_the_study_found_of_a_run(tmp_path):
     rows = made().assign(bodies="convex", faces="25-150")
     store = Store(tmp_path)

@@ -15,7 +15,8 @@ import pytest
 from scipy.optimize import linprog
 
 from experiments.truth import check_many, label, label_many
-from experiments.truth.check import checker, float_filter
+from experiments.truth.check import float_filter, proof
+from experiments.truth.check import obligations as owed
 from experiments.truth.check.balls import BITS, number
 from experiments.truth.check.geometry import Pair
 from ofg import Body, Motion, Pose, Query
@@ -27,11 +28,11 @@ from .draw import moved_together, reversed_in_time, scaled, two_movers
 # Coriolis term.
 MUTANTS = {
     "maximum at the ends": {
-        "checker": (" + wQ * h * own\n", "\n"),
+        "proof": (" + wQ * h * own\n", "\n"),
         "float_filter": ("(arm + (e - s)[q_of] * spun)", "arm"),
     },
     "Coriolis without B's rate": {
-        "checker": ("2 * wP * (slide + wQ * own)", "2 * wP * slide"),
+        "proof": ("2 * wP * (slide + wQ * own)", "2 * wP * slide"),
         "float_filter": ("2 * wP[q_of] * (slide[q_of] + spun)", "2 * wP[q_of] * slide[q_of]"),
     },
 }
@@ -179,8 +180,8 @@ def obligations(rng, count):
         with flint.ctx.workprec(BITS):
             pair = Pair(query)
         s, e = sorted(rng.uniform(0, 1, 2))
-        frame = checker.FRAMES[i % 3]
-        yield checker.Apart(
+        frame = owed.FRAMES[i % 3]
+        yield owed.Apart(
             pair, bodies[0].vertices, bodies[1].vertices, s, e, frame, n.tolist(), 0.0, False
         )
 
@@ -234,10 +235,10 @@ def by_doubles(module, o):
     return module._bend(N, P, Q, np.array([o.n]), *one, fixed, *sides)
 
 
-@pytest.mark.parametrize("arithmetic", ("checker", "float_filter"))
+@pytest.mark.parametrize("arithmetic", ("proof", "float_filter"))
 def test_the_second_derivative_never_exceeds_its_bound(arithmetic):
-    bounds = by_balls if arithmetic == "checker" else by_doubles
-    module = checker if arithmetic == "checker" else float_filter
+    bounds = by_balls if arithmetic == "proof" else by_doubles
+    module = proof if arithmetic == "proof" else float_filter
     worst = max(
         shortfall(bounds(module, o), second_derivatives(o))
         for o in obligations(np.random.default_rng(30), 300)
@@ -246,9 +247,9 @@ def test_the_second_derivative_never_exceeds_its_bound(arithmetic):
 
 
 @pytest.mark.parametrize("name", MUTANTS)
-@pytest.mark.parametrize("arithmetic", ("checker", "float_filter"))
+@pytest.mark.parametrize("arithmetic", ("proof", "float_filter"))
 def test_a_bound_that_forgets_that_b_turns_is_found_out(name, arithmetic):
-    bounds = by_balls if arithmetic == "checker" else by_doubles
+    bounds = by_balls if arithmetic == "proof" else by_doubles
     broken = mutant(
         sys.modules[f"experiments.truth.check.{arithmetic}"], *MUTANTS[name][arithmetic]
     )
@@ -272,14 +273,14 @@ def test_a_false_plane_that_the_coriolis_mutant_accepts_is_refused(angles):
     query = Query(
         "motion", a, b, Pose(), pose_b, *(Motion(axis=[0, 0, 1], angle=w) for w in angles)
     )
-    broken = mutant(checker, *MUTANTS["Coriolis without B's rate"]["checker"])
+    broken = mutant(proof, *MUTANTS["Coriolis without B's rate"]["proof"])
     with flint.ctx.workprec(BITS):
-        o = checker.Apart(
+        o = owed.Apart(
             Pair(query), a.vertices, b.vertices, 0.0, 1.0, "A", normal.tolist(), 0.0, False
         )
         assert _dips(o), "the plane is false"
         assert _holds(broken, o)
-        assert not _holds(checker, o) and float_filter.settle([o])
+        assert not _holds(proof, o) and float_filter.settle([o])
 
 
 def _holds(module, o) -> bool:

@@ -57,7 +57,8 @@ package = types.ModuleType("experiments.truth"); package.__path__ = [str(folder)
 sys.modules["experiments.truth"] = package
 importlib.import_module("experiments.truth.check.checker")
 ours = sorted(m.split(".")[-1] for m in sys.modules if m.startswith("experiments.truth."))
-assert ours == ["balls", "check", "checker", "float_filter", "geometry"], ours
+files = ["balls", "check", "checker", "float_filter", "geometry", "obligations", "proof"]
+assert ours == files, ours
 engines = {"fcl", "pybullet", "mujoco", "scipy", "trimesh", "ofg._core", "ofg"} & set(sys.modules)
 assert not engines, engines
 """

@@ -221,3 +221,15 @@ def test_what_is_not_detectable_is_documented():
 
 def test_a_smaller_configuration_is_said_to_be_none_of_the_package(run):
     assert any("not one of this package's" in note for note in verify(Store(run), workers=1).notes)
+
+
+def test_a_finished_run_takes_other_words_and_nothing_else(run, tmp_path):
+    """Its tables were built again with other titles, and its own verification then refused it."""
+    folder = tmp_path / "reworded"
+    shutil.copytree(run, folder)
+    runner.run(CONFIG.model_copy(update={"title": "Reworded."}), folder, 1)
+    assert Store(folder).config.title == "Reworded." and verify(Store(folder), workers=1).ok
+    path = folder / "config.json"
+    path.write_text(path.read_text().replace("Reworded.", "By hand."))
+    runner.run(CONFIG.model_copy(update={"title": "Again."}), folder, 1)
+    assert any("config.json" in found for found in verify(Store(folder), workers=1).refused)

@@ -15,7 +15,7 @@ from experiments.cli import runner
 from experiments.run.config import RunConfig
 from experiments.run.folder import rows
 from ofg import Body
-from tests.experiments.verification import strangers
+from tests.experiments.verification import strange_meshes, strangers
 
 ROOT = Path(__file__).parents[3]
 MINE = """
@@ -92,7 +92,7 @@ def refused(results) -> None:
 
 
 def test_malformed_meshes(tmp_path):
-    paths = strangers.meshes(tmp_path)
+    paths = strange_meshes.meshes(tmp_path)
     assert len(paths) >= strangers.LEAST["mesh"]
     found = said([("mesh", path) for path in paths], tmp_path / "said")
     fine = [Path(r["words"][1]).name for r in found if r["code"] == 0]
@@ -307,7 +307,7 @@ def test_an_open_mesh_is_refused_when_it_is_read_back(run, tmp_path):
     """A cube without its top was read back, and a body inside it certified clear."""
     here = copied(run, tmp_path / "run")
     bodies, cases = (pd.read_parquet(here / f"{name}.parquet") for name in ("bodies", "cases"))
-    open_ = Body.unchecked("mesh", strangers.CUBE, strangers.FACES[2:], (), "open")
+    open_ = Body.unchecked("mesh", strange_meshes.CUBE, strange_meshes.FACES[2:], (), "open")
     row = rows.body_row(open_)
     pd.concat([bodies, pd.DataFrame([row])]).to_parquet(here / "bodies.parquet")
     cases.assign(body_a=open_.digest).to_parquet(here / "cases.parquet")

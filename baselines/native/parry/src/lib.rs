@@ -14,11 +14,17 @@ pub struct CPose {
 
 fn pose(p: &CPose) -> Pose {
     let [w, x, y, z] = p.quaternion;
-    Pose::from_parts(Vector::from_array(p.position), Rotation::from_xyzw(x, y, z, w))
+    Pose::from_parts(
+        Vector::from_array(p.position),
+        Rotation::from_xyzw(x, y, z, w),
+    )
 }
 
 unsafe fn points(vertices: *const f64, n: usize) -> Vec<Vector> {
-    std::slice::from_raw_parts(vertices, 3 * n).chunks(3).map(|v| Vector::new(v[0], v[1], v[2])).collect()
+    std::slice::from_raw_parts(vertices, 3 * n)
+        .chunks(3)
+        .map(|v| Vector::new(v[0], v[1], v[2]))
+        .collect()
 }
 
 /// The hull of the points, or a null pointer where parry makes none.
@@ -31,8 +37,16 @@ pub unsafe extern "C" fn parry_hull(vertices: *const f64, n: usize) -> *mut Box<
 }
 
 #[no_mangle]
-pub unsafe extern "C" fn parry_mesh(vertices: *const f64, n: usize, faces: *const u32, m: usize) -> *mut Box<dyn Shape> {
-    let triangles = std::slice::from_raw_parts(faces, 3 * m).chunks(3).map(|f| [f[0], f[1], f[2]]).collect();
+pub unsafe extern "C" fn parry_mesh(
+    vertices: *const f64,
+    n: usize,
+    faces: *const u32,
+    m: usize,
+) -> *mut Box<dyn Shape> {
+    let triangles = std::slice::from_raw_parts(faces, 3 * m)
+        .chunks(3)
+        .map(|f| [f[0], f[1], f[2]])
+        .collect();
     match TriMesh::new(points(vertices, n), triangles) {
         Ok(mesh) => Box::into_raw(Box::new(Box::new(mesh) as Box<dyn Shape>)),
         Err(_) => std::ptr::null_mut(),
@@ -45,26 +59,58 @@ pub unsafe extern "C" fn parry_free(shape: *mut Box<dyn Shape>) {
 }
 
 #[no_mangle]
-pub unsafe extern "C" fn parry_overlap(a: *const Box<dyn Shape>, at: &CPose, b: *const Box<dyn Shape>, bt: &CPose) -> bool {
-    query::intersection_test(&pose(at), &**a, &pose(bt), &**b).map(|x| x.intersecting).unwrap_or(false)
+pub unsafe extern "C" fn parry_overlap(
+    a: *const Box<dyn Shape>,
+    at: &CPose,
+    b: *const Box<dyn Shape>,
+    bt: &CPose,
+) -> bool {
+    query::intersection_test(&pose(at), &**a, &pose(bt), &**b)
+        .map(|x| x.intersecting)
+        .unwrap_or(false)
 }
 
 /// Time of impact in [0, 1], or a negative number.
 #[no_mangle]
-pub unsafe extern "C" fn parry_cast(a: *const Box<dyn Shape>, at: &CPose, d: &[f64; 3], b: *const Box<dyn Shape>, bt: &CPose) -> f64 {
+pub unsafe extern "C" fn parry_cast(
+    a: *const Box<dyn Shape>,
+    at: &CPose,
+    d: &[f64; 3],
+    b: *const Box<dyn Shape>,
+    bt: &CPose,
+) -> f64 {
     let options = ShapeCastOptions::with_max_time_of_impact(1.0);
-    match query::cast_shapes(&pose(at), Vector::from_array(*d), &**a, &pose(bt), Vector::ZERO, &**b, options) {
+    match query::cast_shapes(
+        &pose(at),
+        Vector::from_array(*d),
+        &**a,
+        &pose(bt),
+        Vector::ZERO,
+        &**b,
+        options,
+    ) {
         Ok(Some(hit)) => hit.time_of_impact,
         _ => -1.0,
     }
 }
 
-/// As `parry_cast`, for a body that also turns about its own origin by `turn` (axis times angle, in the world's frame).
+/// As `parry_cast`, for a body that also turns about its own origin by `turn` (axis times angle, in the
+/// frame of the world).
 #[no_mangle]
 pub unsafe extern "C" fn parry_cast_nonlinear(
-    a: *const Box<dyn Shape>, at: &CPose, d: &[f64; 3], turn: &[f64; 3], b: *const Box<dyn Shape>, bt: &CPose,
+    a: *const Box<dyn Shape>,
+    at: &CPose,
+    d: &[f64; 3],
+    turn: &[f64; 3],
+    b: *const Box<dyn Shape>,
+    bt: &CPose,
 ) -> f64 {
-    let moving = NonlinearRigidMotion::new(pose(at), Vector::ZERO, Vector::from_array(*d), Vector::from_array(*turn));
+    let moving = NonlinearRigidMotion::new(
+        pose(at),
+        Vector::ZERO,
+        Vector::from_array(*d),
+        Vector::from_array(*turn),
+    );
     let still = NonlinearRigidMotion::constant_position(pose(bt));
     match query::cast_shapes_nonlinear(&moving, &**a, &still, &**b, 0.0, 1.0, true) {
         Ok(Some(hit)) => hit.time_of_impact,
@@ -98,9 +144,15 @@ pub unsafe extern "C" fn parry_manifolds_overlap(
     b: *const Box<dyn Shape>,
     bt: &CPose,
 ) -> bool {
-    let Manifolds { manifolds, workspace } = &mut *kept;
+    let Manifolds {
+        manifolds,
+        workspace,
+    } = &mut *kept;
     let apart = pose(at).inv_mul(&pose(bt));
     let (a, b) = (&**a, &**b);
     let asked = DefaultQueryDispatcher.contact_manifolds(&apart, a, b, 0.0, manifolds, workspace);
-    asked.is_ok() && manifolds.iter().any(|m| m.points.iter().any(|p| p.dist <= 0.0))
+    asked.is_ok()
+        && manifolds
+            .iter()
+            .any(|m| m.points.iter().any(|p| p.dist <= 0.0))
 }

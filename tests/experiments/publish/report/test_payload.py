@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from experiments.analysis import outcome, tables, views
-from experiments.publish.report import certificate, page, payload, report
+from experiments.publish.report import certificate, gallery, page, payload, report, shapes
 from experiments.publish.report.cells import links, select
 from experiments.run.folder.rows import cases_of
 from experiments.run.timing import FLOOR, LOST, PROBE, situation_of, size_of
@@ -143,7 +143,7 @@ def test_a_full_page_leaves_bodies_out_and_the_gallery_comes_first(run, monkeypa
     monkeypatch.setattr(payload, "BYTES", 3000)
     made = payload.of_run(run)
     assert 0 < len(made["drawn"]) < len(made["cases"]["case"]) and len(made["bytes"]) <= 3000
-    wanted = payload.gallery(outcome.outcomes(run))
+    wanted = gallery.gallery(outcome.outcomes(run))
     assert made["cases"]["case"][next(iter(made["drawn"]))] in wanted
 
 
@@ -229,7 +229,7 @@ def test_what_the_page_says_of_ofg_is_what_the_run_observed(run, given):
 
 
 def test_a_large_selection_is_counted_and_not_drawn(run, given, monkeypatch):
-    monkeypatch.setattr(payload, "SELECTED", 5)
+    monkeypatch.setattr(shapes, "SELECTED", 5)
     made = payload.of_run(run)["ofg"]
     sizes = set()
     for place, overlays in given["ofg"].items():
