@@ -12,12 +12,11 @@ from .table import MARK, Table, fraction, interval, marked, of, pivot, share
 
 BEYOND = "Beyond: wrong answers outside the method's documented tolerance (table methods)."
 CONTAINED = (
-    "Contained: hits of a body inside another whose surfaces do not meet; a test of surfaces cannot"
-    " detect them, and they enter no rate."
+    "Contained: hits inside another body that a test of surfaces cannot detect; they enter no rate."
 )
 OWN = (
-    "Each method is judged on the certified cases that it answered, so the methods' cases differ."
-    " 95 %: Wilson interval of the rate, in percent."
+    "Each method over the certified cases that it answered, which differ between methods, with 95 %"
+    " Wilson intervals in percent."
 )
 
 
@@ -70,8 +69,7 @@ def leaderboards(found: pd.DataFrame) -> list[Table]:
         ]
     ]
     caption = _caption(
-        f"Lowest share of wrong answers first. {OWN} The tables common-* compare all methods on the"
-        " same cases.",
+        f"Lowest share of wrong answers first. {OWN} The tables common-* compare the same cases.",
         counts,
         single,
     )
@@ -109,15 +107,10 @@ def accuracy_table(part: pd.DataFrame, question: str) -> Table:
     )
     if counts.contained.any():
         text["contained"] = counts.contained.astype(str)
-    tunnelling = (
-        " Tunnelled: misses of hit sweeps that start and end clear."
-        if question != "overlap"
-        else ""
-    )
     return Table(
         f"accuracy-{question}",
         f"Accuracy, {question}.",
-        _caption(f"{OWN}{tunnelling}", counts, single) + piece_truth.note(part),
+        _caption(OWN, counts, single) + piece_truth.note(part),
         counts,
         text,
         True,
@@ -150,8 +143,7 @@ def common_table(part: pd.DataFrame, question: str) -> Table:
         text["contained"] = counts.contained.astype(str)
     caption = (
         f"The {same.case.nunique()} of {part.case.nunique()} cases that all these methods answered;"
-        " fewest wrong answers first, and methods with equal numbers share a rank."
-        f" {_left_out(left_out)}"
+        f" fewest wrong answers first. {_left_out(left_out)}"
     )
     return Table(
         f"common-{question}",
@@ -256,8 +248,8 @@ def _there(text: pd.DataFrame, *names: str) -> tuple[str, ...]:
 def _caption(text: str, counts: pd.DataFrame, single: set[str]) -> str:
     contained = f" {CONTAINED}" if len(counts) and counts.contained.any() else ""
     mark = (
-        f" {MARK.strip()}: the method computes or stores bodies in single precision, and some cases"
-        " that it answered are not rounded to it."
+        f" {MARK.strip()}: the method computes or stores bodies in single precision, to which some"
+        " of its cases are not rounded."
         if single
         else ""
     )

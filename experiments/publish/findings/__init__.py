@@ -1,10 +1,10 @@
-"""results/README.md: what the runs say of each claim of the article and of each engine, computed
-from their rows.
+"""results/README.md: the findings of the runs on each claim of the article and on each engine,
+computed from the rows of the runs.
 
-No figure and no verdict is typed. runs.py makes rates and ratios of rows, ends.py asks OFG what the
-rows do not hold, claims/ has a function for each claim, by section of the article, engines.py a
-section for each engine, page.py puts them together. objections.py makes results/OBJECTIONS.md. What
-is missing is said on the page, and stops nothing.
+No figure and no verdict is typed. runs.py computes rates and ratios from rows, ends.py runs OFG for
+what the rows do not contain, claims/ has a function per claim, grouped by section of the article,
+engines.py writes a section per engine, and page.py assembles the page. objections.py writes
+results/OBJECTIONS.md. The page lists missing runs and is written without them.
 """
 
 from . import objections

@@ -1,6 +1,7 @@
-"""Hits at an end of the step: asked of OFG directly, as the rows of a run do not hold what met.
+"""Hits at the start or end of a step: OFG is run on them here, as the rows of a run do not record
+which faces met.
 
-What OFG says of the faces that meet is checked by a test of its own, by separating axes.
+A separate test by separating axes checks whether the faces that OFG names intersect.
 """
 
 from __future__ import annotations
@@ -13,15 +14,15 @@ from experiments.run.folder.rows import cases_of
 from experiments.run.folder.store import Store
 from ofg import Body, Query
 
-CLOSE = 1e-9  # of the size of the faces: what rounding may open between two that meet
+CLOSE = 1e-9  # share of the faces' size: the gap that rounding may open between touching faces
 COLUMNS = ["case", "scenario", "hit", "found", "meet", "late"]
 
 
 def known(store: Store, k: int = 8) -> pd.DataFrame:
-    """A row per sweep of a run that is certified to begin or to end in contact.
+    """A row per sweep of a run that is certified to start or end in contact.
 
-    hit, found: the answer of OFG. meet: it names two faces, which do meet at the end of the step
-    that it names. late: how far the time it gives lies behind the certified one.
+    hit, found: OFG's answer. meet: whether the answer names two faces that intersect at the start
+    or end that it names. late: its time less the certified time, as a share of the step.
     """
     cases, bodies = store.read("cases.parquet"), store.read("bodies.parquet")
     ended = cases[(cases.question != "overlap") & ((cases.start == "hit") | (cases.end == "hit"))]
@@ -34,7 +35,7 @@ def known(store: Store, k: int = 8) -> pd.DataFrame:
 
 
 def meets(query: Query, answer: ofg.Answer) -> bool:
-    """Whether the two faces that an answer names meet at the start or the end, where it says so."""
+    """Whether an answer found at the start or end names two faces that intersect then."""
     if answer.found not in ("start", "end") or min(answer.faces) < 0:
         return False
     t = float(answer.found == "end")
@@ -47,13 +48,15 @@ def meets(query: Query, answer: ofg.Answer) -> bool:
 
 
 def face(body: Body, piece: int, index: int) -> np.ndarray:
-    """(3, 3): the corners of a face as an answer names it."""
+    """(3, 3): the corners of a face with the indices of an answer."""
     part = body if piece < 0 else body.pieces[piece]
     return part.vertices[part.faces[index]]
 
 
 def touch(a: np.ndarray, b: np.ndarray) -> bool:
-    """Whether two triangles share a point, but for rounding: no axis that could part them does."""
+    """Whether two triangles share a point up to rounding: no candidate separating axis separates
+    them.
+    """
     size = max(np.ptp(a, axis=0).max(), np.ptp(b, axis=0).max())
     a, b = (a - a[0]) / size, (b - a[0]) / size
     edges_a, edges_b = np.roll(a, -1, 0) - a, np.roll(b, -1, 0) - b

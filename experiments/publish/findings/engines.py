@@ -1,5 +1,5 @@
-"""A section for each engine: misses and false alarms of its methods over all families, and a line
-from each experiment.
+"""A section per engine: misses and false alarms of its methods over all families, and a line per
+experiment.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from .runs import (
     wrong_rate,
 )
 
-ENGINES = {  # heading -> distributions; sampled methods stand under a heading of their own
+ENGINES = {  # heading -> distributions; sampling methods have their own heading
     "FCL": ("python-fcl",),
     "Bullet": ("pybullet", "libbullet"),
     "MuJoCo": ("mujoco",),
@@ -46,8 +46,8 @@ QUESTIONS = ("overlap", "translation", "motion")
 
 
 def engine_of(label: str) -> str:
-    """The heading of a method, or of a contestant of the stepping track, which is called like its
-    engine or its method.
+    """The heading of a method, or of a contestant of the stepping track, which has the name of its
+    engine or method.
     """
     name = name_of(label)
     known = registry.methods().get(name)
@@ -60,7 +60,7 @@ def engine_of(label: str) -> str:
 
 def board(found: pd.DataFrame, heading: str) -> list[dict]:
     """A row per method of an engine: misses, false alarms, the family with the largest share of
-    wrong answers, failures.
+    wrong answers, and failures.
     """
     found = found[
         found.method.map({m: engine_of(m) == heading for m in found.method.unique()}).astype(bool)
@@ -116,7 +116,7 @@ def gap(runs: Runs, of: Callable) -> dict:
         part = rows(found, method=method)
         bad = part[part.wrong]
         said[method] = f"{wrong_rate(part)}" + (
-            f", up to |gap|/size {bad.level.abs().max():.0e}" if len(bad) else ""
+            f", up to |gap|/size = {bad.level.abs().max():.0e}" if len(bad) else ""
         )
     return said
 
@@ -135,7 +135,7 @@ def impact(runs: Runs, of: Callable) -> dict:
     found = runs.answers("impact")
     errors = metrics.times_of_impact(found[found.method.isin(of(found))], ["method"])
     form = (
-        "median {e.median:.1e}, 95 % {e.p95:.1e}, latest {e.worst_late:.1e}, earliest"
+        "median {e.median:.1e}, 95th percentile {e.p95:.1e}, latest {e.worst_late:.1e}, earliest"
         " {e.worst_early:.1e}, n={e.times}"
     )
     return {e.method: form.format(e=e) for e in errors.itertuples()}
@@ -164,8 +164,8 @@ def python(runs: Runs, of: Callable) -> dict:
 
 
 def simulator(runs: Runs, of: Callable) -> dict:
-    """Worlds of the stepping track; kinematic loops around a method stand with the method's
-    engine.
+    """Simulators of the stepping track; kinematic loops around a method belong to the engine of the
+    method.
     """
     found = runs.file("stepping/stepping.parquet").dropna(subset=["tunnelled"])
     counts = found.groupby("contestant", sort=False)[["tunnelled", "runs"]].sum()
@@ -185,36 +185,36 @@ def failures(runs: Runs, of: Callable) -> dict:
     return counts
 
 
-LINES = (  # what a line is about; the table; what it says of an engine's methods
-    ("By signed gap, wrong", "gap/tables/gap-wrong.md", gap),
-    ("Walls, tunnelled", "tunnelling/tables/tunnelling-straight.md", walls),
-    ("Turns, missed", "rotation/tables/rotation-side.md", turns),
+LINES = (  # subject of a line; its table; the function that gives the text for an engine's methods
+    ("Wrong answers by signed gap", "gap/tables/gap-wrong.md", gap),
+    ("Tunnelled through walls", "tunnelling/tables/tunnelling-straight.md", walls),
+    ("Misses of rotating bodies", "rotation/tables/rotation-side.md", turns),
     (
-        "Time of impact, error in steps, hits at an end too",
+        "Error of the time of impact as a share of the step, including hits found at its end",
         "impact/tables/impact-latest.md",
         impact,
     ),
     (
-        f"Time over that of {OURS}, in C++, small gaps, by class of build",
+        f"Ratio of time to that of {OURS} in C++, small gaps, by class of build",
         "native/native.md",
         native,
     ),
     (
         (
-            f"Net time over that of {OURS}, from Python, 0 where it is not above the method's own"
-            " floor"
+            f"Ratio of net time to that of {OURS} from Python (0 if the method's time does not"
+            " exceed its floor)"
         ),
         "faces/tables/faces-ratio.md",
         python,
     ),
-    ("Run as a simulator, got past, all scenes and speeds", "stepping/tables", simulator),
+    ("Tunnelled as a simulator, all scenes and speeds", "stepping/tables", simulator),
     ("Crashes and timeouts in all runs", "", failures),
 )
 
 
 def lines(runs: Runs, heading: str) -> list[str]:
-    """What the single experiments say of an engine's methods; those that are not there say so,
-    those without it say nothing.
+    """A line per experiment on an engine's methods. A missing run is reported; an experiment
+    without methods of the engine has no line.
     """
 
     def of(frame: pd.DataFrame) -> list[str]:
@@ -238,15 +238,15 @@ def sections(runs: Runs) -> list[str]:
     except Missing as reason:
         return [f"not measured ({reason})"]
     parts = [
-        f"Misses and false alarms in the run {runs.link(runs.board)}, pooled over all its families"
-        " as it weights them: families are aimed at difficulties, so these are not rates of"
-        " everyday use. Worst family: the largest share wrong, misses and false alarms. Beyond its"
-        " tolerance: wrong by more than the method's documentation allows. Answered: of the cases"
-        " of the questions that it takes; the rest are bodies that it does not take, or failed:"
-        " crashes and timeouts."
+        f"Misses and false alarms in the run {runs.link(runs.board)}, pooled over its families with"
+        " the numbers of cases of the run. The families are designed to be difficult, so these are"
+        " not rates of everyday use. Worst family: the family with the largest share of wrong"
+        " answers. Beyond its tolerance: wrong answers outside the method's documented tolerance."
+        " Answered: of the cases of the questions that the method answers; the others have bodies"
+        " that it does not accept, or failed. Failed: crashes and timeouts."
     ]
     for heading in (*ENGINES, SAMPLING):
         made = board(found, heading)
-        text = grid(made) if made else f"not measured (run {runs.board} has no answers of it)."
+        text = grid(made) if made else f"not measured (run {runs.board} has no answers from it)."
         parts += [f"### {heading}\n{text}", "\n".join(lines(runs, heading))]
     return [part for part in parts if part]

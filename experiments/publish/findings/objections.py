@@ -1,4 +1,4 @@
-"""Objections that the author of a losing engine would raise, each with its number before and after,
+"""Objections that the author of an engine may raise, each with figures before and after, computed
 from the rows of the runs.
 """
 
@@ -20,8 +20,8 @@ from .runs import Missing, Runs
 
 @dataclass(frozen=True)
 class Objection:
-    """said: the objection. answer: what was changed. rows(runs): (what, before, after), or Missing.
-    command: gives the numbers.
+    """said: the objection. answer: the change made. rows(runs): (what, before, after), or raises
+    Missing. command: prints the figures.
     """
 
     title: str
@@ -36,10 +36,11 @@ def page(runs: Runs) -> str:
     parts = [
         "# Objections and answers",
         (
-            "What the author of an engine could object to in these tables, what was done about it,"
-            " and what that changes. Before: by the rule that the objection is about. After: by the"
-            " rule of the tables. Both are counted from the same rows unless a line says otherwise."
-            " Written by `ofg-bench findings results --objections results/OBJECTIONS.md`."
+            "Objections that the author of an engine may raise against these tables, the change"
+            " made in response, and its effect. Before: under the rule objected to. After: under"
+            " the rule of the tables. Both are computed from the same rows unless a line states"
+            " otherwise. `ofg-bench findings results --objections results/OBJECTIONS.md` wrote this"
+            " page. The [glossary](../experiments/GLOSSARY.md) defines the terms."
         ),
     ]
     for number, objection in enumerate(OBJECTIONS, 1):
@@ -72,8 +73,8 @@ def _of(count, total) -> str:
 
 
 def tolerances(runs: Runs):
-    """Before: all wrong answers, Bullet's margin alone credited. After: those beyond each method's
-    own tolerance.
+    """Before: all wrong answers, with a tolerance for Bullet only. After: wrong answers outside
+    each method's own tolerance.
     """
     counts, rows = _counts(runs.answers(runs.board)), []
     for method in (
@@ -115,7 +116,7 @@ def surfaces(runs: Runs):
 def pieces(runs: Runs):
     store = Store(runs.folder / runs.board)
     if not store.has("pieces.parquet"):
-        raise Missing(f"the run {runs.board} holds no pieces; run it anew")
+        raise Missing(f"the run {runs.board} contains no pieces; repeat it")
     with_them = outcome.with_pieces(store, runs.answers(runs.board))
     meshes = set(store.read("pieces.parquet").case)
     after = _counts(with_them[with_them.case.isin(meshes)])
@@ -134,21 +135,21 @@ def pieces(runs: Runs):
     return [
         *rows,
         (
-            "CoACD pieces against the meshes, wrong",
-            "booked to the engines",
+            "CoACD pieces judged by the meshes, wrong",
+            "attributed to the engines",
             _of(own.wrong, own.judged),
         ),
     ]
 
 
 def unit(runs: Runs):
-    """Counts of the tuning set, seed 71, which no run counts."""
+    """Counts on the tuning set, seed 71, which is not part of any run."""
     table, rows = pd.read_csv(units.TABLE), []
     for method, part in table.groupby("method", sort=False):
         at, best = part.set_index("unit"), units.tuned()[method]
         rows.append(
             (
-                f"{method}, wrong in units of 1 and of {best:g}",
+                f"{method}, wrong with units of 1 and of {best:g}",
                 _of(at.wrong[1.0], at.asked[1.0]),
                 _of(at.wrong[best], at.asked[best]),
             )
@@ -160,15 +161,15 @@ def turns(runs: Runs):
     counts = _counts(runs.answers("rotation"))
     rows = [
         (
-            "ipctk-ccd, one straight piece, misses of turns",
+            "ipctk-ccd, one linear piece, misses of rotations",
             "283 misses in results/standard of commit 280403c",
-            "not asked about turns",
+            "does not answer rotations",
         )
     ]
     rows += [
         (
-            f"{m}, misses of turns",
-            "not asked" if "exact" in m else "",
+            f"{m}, misses of rotations",
+            "not run" if "exact" in m else "",
             _of(counts.misses[m], counts.hits[m]),
         )
         for m in counts.index
@@ -177,15 +178,15 @@ def turns(runs: Runs):
     return rows + [
         (
             "fcl-ccd-convex and fcl-ccd-mesh (CCDM_TRANS), motions",
-            "asked, turn ignored",
-            "not asked about turns",
+            "run with the rotation ignored",
+            "do not answer rotations",
         )
     ]
 
 
 def fronts(runs: Runs):
-    """Before: only who answers all cases may be on the front. After: all compete on the common
-    cases.
+    """Before: only methods that answer all cases could be on the front. After: methods are compared
+    on the common cases.
     """
     found = runs.answers(runs.board)
     points, rows = figures.joined(Store(runs.folder / runs.board)), []
@@ -196,8 +197,8 @@ def fronts(runs: Runs):
             whole = (overlap[overlap.method == method].status == "ok").all()
             rows.append(
                 (
-                    f"{method}, overlap: panels where it is on the front",
-                    "may be on it" if whole else "never: it does not answer all",
+                    f"{method}, overlap: panels in which it is on the Pareto front",
+                    "eligible" if whole else "never, as it does not answer all cases",
                     _of(part.front.sum(), len(part)),
                 )
             )
@@ -208,7 +209,7 @@ def tilts(runs: Runs):
     found = runs.answers("robustness")
     counts = _counts(found[found.scenario == "near_parallel"])
     if counts.empty:
-        raise Missing("the run robustness has no near_parallel; run it anew")
+        raise Missing("the run robustness has no family near_parallel; repeat it")
     return [
         (
             f"{m}, near_parallel",
@@ -225,7 +226,7 @@ def casts(runs: Runs):
     rows = [
         (
             m,
-            "not asked",
+            "not run",
             f"missed {_of(c.misses, c.hits)}, false alarms {_of(c.false_alarms, c.clears)}",
         )
         for m, c in counts.iterrows()
@@ -238,7 +239,7 @@ def casts(runs: Runs):
     ]
     if not any(m.startswith("bullet") and "-cast" in m for m in counts.index):
         raise Missing(
-            "the run tunnelling has none of Bullet's casts; run make native, then ofg-bench run"
+            "the run tunnelling contains no casts of Bullet; run make native, then ofg-bench run"
             " tunnelling"
         )
     return rows
@@ -252,8 +253,8 @@ def situations(runs: Runs):
     split = [n for n in names if n.rsplit("-", 1)[-1] in ("deep", "near", "apart", "hit", "clear")]
     return [
         (
-            "tables of time of the experiment faces",
-            "one, all situations together",
+            "tables of query times of the experiment faces",
+            "one, for all situations together",
             f"{len(split)}: {', '.join(split)}",
         )
     ]
@@ -264,94 +265,94 @@ def heaps(runs: Runs):
     rows = [
         (
             m,
-            "one of the two, by what ran before",
+            "one of the two, depending on earlier queries",
             f"missed {_of(c.misses, c.hits)}, false alarms {_of(c.false_alarms, c.clears)}",
         )
         for m, c in counts.iterrows()
         if m.startswith("fcl-advancement-convex")
     ]
     if len(rows) < 2:
-        raise Missing("the run rotation asks one heap alone; run it anew")
+        raise Missing("the run rotation has only one state of the heap; repeat it")
     return rows
 
 
 OBJECTIONS = (
     Objection(
         "Tolerances",
-        "Bullet's documented margin was credited, and nobody else's tolerance was.",
-        "Every method declares the tolerance of its documentation, for misses and for false alarms."
-        " The tables count wrong answers, and wrong answers beyond the own tolerance, for all"
-        " alike. OFG declares none.",
+        "Bullet's documented margin was taken into account, but no other method's tolerance.",
+        "Every method declares its documented tolerance for misses and for false alarms. For every"
+        " method, the tables count all wrong answers and those outside its own tolerance. OFG"
+        " declares no tolerance.",
         tolerances,
         "ofg-bench tables results/{board} --only leaderboard",
     ),
     Objection(
         "Surface tests",
-        "A test of surfaces cannot see a body inside another, and is not meant to.",
-        "Hits of a body inside another whose surfaces do not meet are counted in a column of their"
-        " own, in no rate of a method that tests surfaces.",
+        "A test of surfaces cannot detect a body inside another, and is not designed to.",
+        "For methods that test surfaces, hits of a body inside another whose surfaces do not meet"
+        " are counted in a separate column and enter no rate.",
         surfaces,
         "ofg-bench tables results/{board} --only accuracy-overlap",
     ),
     Objection(
         "CoACD's error",
-        "Methods that are asked about the pieces of a mesh were judged by the mesh.",
-        "They are judged by the certified truth of the pieces. The error of the pieces against the"
-        " mesh is a row of its own.",
+        "Methods whose query contains the pieces of a mesh were judged by the mesh.",
+        "They are judged by the certified truth of the pieces. A separate row gives the error of"
+        " the pieces relative to the mesh.",
         pieces,
         "ofg-bench tables results/{board} --only accuracy-overlap",
     ),
     Objection(
         "Units",
-        "The unit of length was tuned for FCL and Drake alone, and on the cases that are counted.",
-        "One rule chooses the unit of every best effort, on cases of another seed.",
+        "The unit of length was tuned for FCL and Drake only, and on the cases that are counted.",
+        "One rule selects the unit of every best effort configuration, on cases of another seed.",
         unit,
         "python -m experiments.studies.tuning",
     ),
     Objection(
-        "Turns asked of linear modes",
-        "Modes for straight paths were asked about turns.",
-        "A default is asked what its documentation says that it answers; the best effort asks a"
-        " turn in pieces; anything else is unsupported.",
+        "Rotations in linear modes",
+        "Modes for linear paths were run on rotations.",
+        "A default configuration answers the queries that its documentation states; the best effort"
+        " configuration divides a rotation into linear pieces; all other queries are unsupported.",
         turns,
         "ofg-bench run rotation --out results/rotation",
     ),
     Objection(
         "Ranks and fronts",
-        "The leaderboard compared methods that answer different cases; the Pareto front admitted"
-        " only who answers all.",
-        "Tables common-* and ranks-* and the fronts compare methods over the cases that all of them"
-        " answer, by band of the gap and with every scenario of the same weight too.",
+        "The leaderboard compared methods that answer different cases, and the Pareto front"
+        " contained only methods that answer all cases.",
+        "The tables common-* and ranks-* and the Pareto fronts compare methods on common cases. The"
+        " ranks are also given by band of the gap and with equal weight for every scenario.",
         fronts,
         "ofg-bench tables results/{board} --only ranks",
     ),
     Objection(
         "No error found",
-        "A method of which no error was found in some families was said to make none.",
-        "No sentence says so any more, and a family of nearly parallel faces has been added.",
+        "A method without errors in some families was described as free of errors.",
+        "The description was removed, and a family of nearly parallel faces was added.",
         tilts,
         "ofg-bench run robustness --out results/robustness",
     ),
     Objection(
         "Bullet's casts",
-        "Bullet's continuous casts exist in C++ and were not asked.",
-        "All three are asked, as they come and at their best. FCL's best effort takes the solver"
-        " and the path that hit.",
+        "Bullet's continuous casts exist in C++ and were not run.",
+        "All three are run in default and best effort configurations. FCL's best effort"
+        " configuration uses the solver and the path model with the fewest misses.",
         casts,
         "make native && ofg-bench run tunnelling --out results/tunnelling",
     ),
     Objection(
-        "Like with like",
-        "Times of clear cases at many faces were compared with times of hits at few.",
-        "Every table and figure of time is split by situation.",
+        "Comparable times",
+        "Times of clear cases with many faces were compared with times of hits with few faces.",
+        "Every table and figure of query times is split by situation.",
         situations,
         "ofg-bench tables results/faces --only faces",
     ),
     Objection(
-        "FCL's memory",
-        "FCL's advancement reads memory that it never wrote, so its answers hang on what ran"
-        " before.",
-        "It is asked with that memory zeroed and with it filled, and both are shown.",
+        "FCL's uninitialised memory",
+        "FCL's conservative advancement reads uninitialised memory, so its answers depend on"
+        " earlier queries.",
+        "It is run with this memory zeroed and with it filled, and the tables show both.",
         heaps,
         "ofg-bench run rotation --out results/rotation",
     ),

@@ -1,6 +1,4 @@
-"""The page: a table of the claims, a paragraph for each, the engines, and the runs that it was made
-from.
-"""
+"""The page: a table of the claims, a paragraph on each claim, the engines, and the runs."""
 
 from __future__ import annotations
 
@@ -14,11 +12,11 @@ from .claims import CLAIMS, finding
 from .engines import sections
 from .runs import FAILS, HOLDS, OPEN, PART, UNMEASURED, Runs, grid
 
+GLOSSARY = "../experiments/GLOSSARY.md"  # from results/
+
 
 def about(runs: Runs) -> list[dict]:
-    """A row per folder: what it asks, its size, when and from which commit it was made, how quiet
-    the machine was.
-    """
+    """A row per folder: its purpose, size, date, commit, machine and timing noise."""
     made = []
     for run in sorted(p.name for p in runs.folder.iterdir() if p.is_dir() and p.name != "runs"):
         folder = runs.folder / run
@@ -52,7 +50,7 @@ def about(runs: Runs) -> list[dict]:
         made.append(
             {
                 "folder": f"[{run}]({run})",
-                "what it asks": question,
+                "purpose": question,
                 "size": size,
                 "made (UTC)": noted.get("started", "-")[:16].replace("T", " "),
                 "commit": (
@@ -85,16 +83,24 @@ def page(folder) -> str:
     parts = [
         "# Findings",
         (
-            "Made by `ofg-bench findings` from the runs in this folder at the end of `make"
-            " reproduce`, which does it all again; no figure is typed. Counts are wrong/asked with"
-            " 95 % Wilson intervals, over the certified cases that a method answered; times have"
-            " 95 % bootstrap intervals, and no ratio of net times from Python is over one within"
-            " the noise of its floor (the interquartile range of the floor's rounds). Cases of a"
-            f" family resemble each other more than the intervals know. *{HOLDS.capitalize()}*: the"
-            f" rule under the claim is met; *{FAILS}*: its opposite is shown; *{PART}*: both, in"
-            f" parts; *{OPEN}*: too few cases; *{UNMEASURED}*: a run is missing. Of {len(found)}"
-            f" claims: {', '.join(f'{n} {v}' for v, n in counts.items())}. After the claims: [the"
-            " engines](#the-engines), [the runs](#the-runs)."
+            "`ofg-bench findings` wrote this page from the runs in this folder; `make reproduce`"
+            " repeats all runs and writes it again. No figure is typed. The"
+            f" [glossary]({GLOSSARY}) defines the terms."
+        ),
+        (
+            "Counts are wrong/answered over the certified cases that a method answered, with 95 %"
+            " Wilson intervals. The intervals treat cases as independent, although cases of one"
+            " family resemble each other, so they may be too narrow. Times have 95 % bootstrap"
+            " intervals. A ratio of net times from Python is omitted if its denominator lies within"
+            " the noise of the floor (the interquartile range of the floor's rounds)."
+        ),
+        (
+            f"*{HOLDS.capitalize()}*: the rule given with the claim is met. *{FAILS.capitalize()}*:"
+            f" its opposite is shown. *{PART.capitalize()}*: it is met for some parts only."
+            f" *{OPEN.capitalize()}*: there are too few cases. *{UNMEASURED.capitalize()}*: a run"
+            f" is missing. Verdicts on the {len(found)} claims:"
+            f" {', '.join(f'{v} {n}' for v, n in counts.items())}. Below the claims follow [the"
+            " engines](#the-engines) and [the runs](#the-runs)."
         ),
         grid(summary),
         "## The claims",
@@ -114,12 +120,12 @@ def page(folder) -> str:
         "## The runs",
         grid(made),
         (
-            f"Machine: {'; '.join(machines) or 'not noted'}. Noise: how far the 90th percentile of"
-            " the noise probe lies above its median, in the worst bin; times of a run above 25 %"
-            " are to be taken again. Each run has its manifest.json (versions, machine, load),"
-            " report.html (every wrong answer in 3D), tables, figures and rows. To redo a run:"
-            " remove its folder, then `make reproduce`. This page alone: `ofg-bench findings"
-            " results --into results/README.md`."
+            f"Machine: {'; '.join(machines) or 'not recorded'}. Noise: the relative excess of the"
+            " noise probe's 90th percentile over its median, in the worst bin; times of a run above"
+            " 25 % should be measured again. Each run has a manifest.json (versions, machine,"
+            " load), a report.html (wrong answers in 3D), tables, figures and rows. To repeat a"
+            " run, remove its folder and run `make reproduce`. To write only this page, run"
+            " `ofg-bench findings results --into results/README.md`."
         ),
     ]
     return "\n\n".join(parts) + "\n"

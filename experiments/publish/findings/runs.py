@@ -1,6 +1,4 @@
-"""The runs of a folder, and the numbers that are taken from their rows: by metrics, never counted
-in a second way.
-"""
+"""The runs of a folder, and the numbers computed from their rows, always by metrics.py."""
 
 from __future__ import annotations
 
@@ -19,19 +17,19 @@ from experiments.studies import sizes
 
 from . import ends
 
-MISSES = 0.05  # a rate of misses is small if its whole interval lies under this, large if above
-LATE = 1e-3  # of the step: what an estimate of the time of impact may be off
-NOISY = "within the noise"  # in place of a ratio: see costs.ratios
+MISSES = 0.05  # a rate of misses is small if its interval lies below this, large if above it
+LATE = 1e-3  # tolerated error of an estimate of the time of impact, as a share of the step
+NOISY = "within the noise"  # instead of a ratio: see costs.ratios
 HOLDS, PART, FAILS, OPEN, UNMEASURED = "holds", "holds in part", "fails", "open", "not measured"
 
 
 class Missing(Exception):
-    """What cannot be said, because a run or rows of it are not there."""
+    """A finding cannot be computed, because a run or rows of it are missing."""
 
 
 class Runs:
-    """The runs in a folder of results, read when they are first asked for. Every method raises
-    Missing where there is none.
+    """The runs in a folder of results, each read on first use. Every method raises Missing if its
+    run is missing.
     """
 
     def __init__(self, folder):
@@ -51,7 +49,7 @@ class Runs:
         )
 
     def bodies(self, run: str) -> pd.Series:
-        """What the two bodies of each case are: "convex and mesh", by case."""
+        """The kinds of the two bodies, such as "convex and mesh", by case."""
         return self._once(("bodies", run), lambda: kinds(Store(self.folder / run)))
 
     def known(self, run: str) -> pd.DataFrame:
@@ -59,7 +57,7 @@ class Runs:
         return self._once(("known", run), lambda: ends.known(Store(self.folder / run)))
 
     def file(self, name: str) -> pd.DataFrame:
-        """A frame of the folder: sizes/sizes.parquet, native/rows.parquet,
+        """A frame in the folder: sizes/sizes.parquet, native/rows.parquet or
         stepping/stepping.parquet.
         """
         read = pd.read_csv if name.endswith(".csv") else pd.read_parquet
@@ -67,7 +65,7 @@ class Runs:
 
     @cached_property
     def board(self) -> str:
-        """The run with every family: standard, or quick where there is no standard."""
+        """The run with every family: standard, or quick if standard is missing."""
         return next(
             (
                 run
@@ -82,14 +80,14 @@ class Runs:
         return sorted(p.parent.name for p in self.folder.glob("*/observations.parquet"))
 
     def link(self, path: str, name: str = "") -> str:
-        """A link to a file of the folder, called like the file if no name is given; the name alone
-        where there is no file.
+        """A link to a file in the folder; the default name is that of the file. Only the name if
+        the file does not exist.
         """
         name = name or Path(path).stem
         return f"[{name}]({path})" if (self.folder / path).exists() else name
 
     def links(self, paths) -> str:
-        """paths: with {board} for the run that has every family."""
+        """Links to several files; {board} in a path is the run with every family."""
         return ", ".join(self.link(p.format(board=self.board)) for p in paths)
 
     def _once(self, key, read):
@@ -126,7 +124,7 @@ class Rate:
 
 
 def kinds(store: Store) -> pd.Series:
-    """What the two bodies of each case of a run are, in the order of the alphabet."""
+    """The kinds of the two bodies of each case of a run, in alphabetical order."""
     cases = store.read("cases.parquet")
     kind = store.read("bodies.parquet").set_index("body").kind
     pairs = zip(cases.body_a.map(kind), cases.body_b.map(kind))
@@ -134,13 +132,13 @@ def kinds(store: Store) -> pd.Series:
 
 
 def overall(verdicts) -> str:
-    """The verdict on a claim of several parts that have one each."""
+    """The verdict on a claim from the verdicts on its parts."""
     found = set(verdicts)
     return found.pop() if len(found) == 1 else PART
 
 
 def rows(frame: pd.DataFrame, **wanted) -> pd.DataFrame:
-    """The rows whose columns have the wanted value, or one of several. Missing if there are
+    """The rows whose columns have the wanted value, or one of several. Raises Missing if there are
     none.
     """
     for column, value in wanted.items():
@@ -151,8 +149,8 @@ def rows(frame: pd.DataFrame, **wanted) -> pd.DataFrame:
 
 
 def rate(frame: pd.DataFrame, kind: str = "misses", **wanted) -> Rate:
-    """Misses, false alarms or tunnelled of the certified cases answered, by metrics.rates. Missing
-    if there is no such case.
+    """The rate of misses, false alarms or tunnelled cases, by metrics.rates. Raises Missing if its
+    total is 0.
     """
     count, total, interval, _ = chosen.COUNTS[kind]
     part = rows(frame, **wanted)
@@ -165,14 +163,14 @@ def rate(frame: pd.DataFrame, kind: str = "misses", **wanted) -> Rate:
 
 
 def size_rates(runs: Runs, depth: str, k: int) -> dict[int, Rate]:
-    """Misses of the claims run at a depth by number of faces; only sizes above k."""
+    """Rates of misses of the sizes study at a depth, by number of faces; only sizes above k."""
     found = rows(sizes.misses(runs.file("sizes/sizes.parquet")), depth=depth, k=k, repairs=False)
     found = rows(found[found.faces > k], depth=depth)
     return {r.faces: Rate(r.misses, r.hits, r.miss_low, r.miss_high) for r in found.itertuples()}
 
 
 def are_small(rates) -> str:
-    """The verdict on rates that are claimed to be small."""
+    """The verdict on a claim that all rates are small."""
     rates = list(rates)
     if all(r.small for r in rates):
         return HOLDS
@@ -189,8 +187,8 @@ def ratio(times: pd.DataFrame, method: str, reference: str, by) -> pd.DataFrame:
 
 
 def or_reason(find: Callable, *given, **named) -> str:
-    """What find(*given, **named) says, or why it cannot be said: for what stands beside a verdict
-    and does not decide it.
+    """The result of find(*given, **named), or why it is missing. For text that accompanies a
+    verdict without deciding it.
     """
     try:
         return str(find(*given, **named))
@@ -218,7 +216,7 @@ def listed(values, form: Callable = str) -> str:
 
 
 def spread(rates: dict) -> str:
-    """The lowest and the highest of several rates, with what they are of."""
+    """The lowest and the highest of several rates, with their keys."""
     named = {
         f"{key} faces" if isinstance(key, (int, np.integer)) else key: r for key, r in rates.items()
     }
@@ -229,7 +227,7 @@ def spread(rates: dict) -> str:
 
 
 def interval(r) -> str:
-    """A ratio and its interval, three digits each, never in powers of ten."""
+    """A ratio and its interval, with three digits each and no powers of ten."""
     if np.isnan(r.ratio):
         return NOISY
     value, low, high = (f"{v:.0f}" if v >= 100 else f"{v:.3g}" for v in (r.ratio, r.low, r.high))
@@ -241,7 +239,7 @@ def times_more(r) -> str:
 
 
 def share_of(flags: pd.Series) -> Rate:
-    """How many of all are so. Missing if there are none."""
+    """The share of true flags. Raises Missing if there are no flags."""
     if flags.empty:
         raise Missing("no such rows")
     count = int(flags.sum())
@@ -249,7 +247,7 @@ def share_of(flags: pd.Series) -> Rate:
 
 
 def worst_families(found: pd.DataFrame, method: str, kind: str = "misses", n: int = 2) -> str:
-    """The families with a method's highest rates, of those where it has any count."""
+    """The families with the highest rates of a method, among those with a count above 0."""
     each = by_family(found, method, kind)
     some = [name for name in each if each[name].count]
     worst = sorted(some, key=lambda name: each[name].count / each[name].total)[-n:]
@@ -257,21 +255,21 @@ def worst_families(found: pd.DataFrame, method: str, kind: str = "misses", n: in
 
 
 def by_family(found: pd.DataFrame, method: str, kind: str = "misses") -> dict[str, Rate]:
-    """A method's rate in each family that has such cases."""
+    """The rate of a method in each family with such cases."""
     label = "clear" if kind == "false alarms" else "hit"
     such = rows(found, method=method, label=label, status="ok")
     return {f"`{name}`": rate(part, kind) for name, part in such.groupby("scenario", sort=False)}
 
 
 def wrong_rate(part: pd.DataFrame) -> Rate:
-    """Misses and false alarms of the certified cases answered."""
+    """The rate of misses and false alarms, of the certified cases answered."""
     counts = metrics.rates(part.assign(all=0), ["all"]).iloc[0]
     count, total = int(counts.misses + counts.false_alarms), int(counts.hits + counts.clears)
     return Rate(count, total, *metrics.wilson(count, total))
 
 
 def grid(made: list[dict]) -> str:
-    """A Markdown table; the columns in which any row has something."""
+    """A Markdown table of the columns in which any row has an entry."""
     columns = [
         c
         for c in dict.fromkeys(c for row in made for c in row)

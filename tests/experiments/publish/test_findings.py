@@ -60,7 +60,7 @@ def test_what_is_missing_is_said(tmp_path):
 
 def test_a_run_cut_short_is_said(tmp_path):
     (tmp_path / "rotation").mkdir()
-    assert said("Chords", Runs(tmp_path)) == UNMEASURED
+    assert said("Linearised", Runs(tmp_path)) == UNMEASURED
     assert "run rotation is not finished" in page_of(tmp_path)
 
 

@@ -1,4 +1,4 @@
-"""The claims of the article in its order, then what it is silent about, as the page counts them."""
+"""The claims in the order of the page: those of the article, then those that it does not make."""
 
 from . import basic, concave, moving, project
 from .claim import Claim, Finding, finding

@@ -1,4 +1,4 @@
-"""Claims of the basic algorithm: its cost, k, and which bodies it suits."""
+"""Claims on the basic algorithm: its cost, the choice of k, and suitable bodies."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ from experiments.studies.native.summary import steps
 
 from .claim import BASIC, PROBLEMS, claim
 
-HULLS = "Random hulls of one size against each other."
-FEWEST = 3  # cases that a cell of times has at least
-FEW, MANY = sizes.FACES[1], sizes.FACES[3]  # "few faces" and "many", of those measured
+HULLS = "Pairs of random convex hulls with equal numbers of faces."
+FEWEST = 3  # least number of cases in a cell of times
+FEW, MANY = sizes.FACES[1], sizes.FACES[3]  # the measured sizes called "few faces" and "many faces"
 
 
 def depth_range(name: str) -> str:
@@ -45,11 +45,11 @@ def depth_range(name: str) -> str:
 @claim(
     "Selecting faces costs O(n + m)",
     f"{BASIC}, steps 2 and 4",
-    "at most n + m distances by the article's count in every query, and at most 2 (n + m) really"
-    " computed, to faces and to blocks of faces",
+    "in every query, at most n + m distances by the article's count, and at most 2 (n + m)"
+    " distances actually computed, to faces and to blocks of faces",
     "sizes/tables/operations.md native/native.md",
-    f"{HULLS} The count holds by construction: the counter adds n + m. What is computed does not:"
-    " blocks of faces are passed over by one bound each.",
+    f"{HULLS} The article's count holds by construction, as the counter adds n + m. The number of"
+    " computed distances does not: one bound per block of faces can skip the block.",
 )
 def selection(runs: Runs):
     found = rows(sizes.operations(runs.file("sizes/sizes.parquet")), question="overlap")
@@ -58,14 +58,14 @@ def selection(runs: Runs):
     mean = listed(eight.evaluated_mean, lambda v: f"{100 * v:.1f} %")
     number = f"computed: at most {computed:.2f} (n + m); n={found.queries.sum()} queries"
     text = (
-        f"Counted: at most {counted:.2f} (n + m), by construction. Computed with k = 8, on average,"
-        f" by faces: {mean}. Selecting alone, natively: {or_reason(lambda: growth(runs))}."
+        f"Counted: at most {counted:.2f} (n + m), by construction. Computed with k = 8, mean by"
+        f" faces: {mean}. Native time of the selection only: {or_reason(lambda: growth(runs))}."
     )
     return (HOLDS if counted <= 1 and computed <= 2 else FAILS), number, text
 
 
 def growth(runs: Runs) -> str:
-    """Native time of the steps that select, with the most faces over that with the fewest."""
+    """Native time of the selection steps for the most faces, relative to the fewest."""
     own = rows(
         steps(runs.file("native/rows.parquet"), V3),
         bodies="hull",
@@ -74,7 +74,7 @@ def growth(runs: Runs) -> str:
         precision="double",
     )
     if len(own) < 2:
-        raise Missing("fewer than two sizes of hulls in run native")
+        raise Missing("run native has fewer than two sizes of hulls")
     spent = (own["2-3 select A"] + own["4-6 select B"]).to_numpy()
     faces = own.faces.astype(int).to_numpy()
     few, many = faces.argmin(), faces.argmax()
@@ -90,9 +90,9 @@ def growth(runs: Runs) -> str:
     f"{BASIC}, step 8",
     "at most k^2 pairs, and at most k^2 full tests, in every query",
     "sizes/tables/operations.md",
-    f"{HULLS} Overlapping pairs, {depth_range('shallow')}, and {depth_range('deep')}. It holds by"
-    " construction, as two selections of k faces have no more pairs: how many are tested is what is"
-    " found.",
+    f"{HULLS} Overlapping pairs, {depth_range('shallow')} and {depth_range('deep')}. The bound"
+    " holds by construction, as two selections of k faces have k^2 pairs; the finding is the"
+    " number of pairs that are tested.",
 )
 def pairs(runs: Runs):
     found = rows(sizes.operations(runs.file("sizes/sizes.parquet")), question="overlap")
@@ -108,9 +108,9 @@ def pairs(runs: Runs):
             f" k^2; n={eight.queries.sum()} queries"
         ),
         (
-            f"Pairs settled with k = 8: {mean:.2g} k^2 on average over all sizes, since the first"
-            f" pair that meets ends it; with any k at most {most:.2f} k^2. A full test is of a pair"
-            " that no cheap rejection settles."
+            f"Pairs decided with k = 8: {mean:.2g} k^2, mean over all sizes, since the first"
+            f" intersecting pair ends the query; with any k at most {most:.2f} k^2. A full test is"
+            " the test of a pair that no cheap rejection decides."
         ),
     )
 
@@ -120,10 +120,10 @@ def pairs(runs: Runs):
     f"{BASIC}, step 8",
     "at most k^2 + 3k pairs of faces in every overlap query",
     "sizes/tables/operations.md",
-    f"{HULLS} The article says it of overlap only; by construction no query has more than k^2"
-    " pairs. Of sweeps it says nothing: they stand beside it without a verdict. There a pair of"
-    " faces and a virtual edge against a face each count as one: up to 3k virtual edges against k"
-    " faces, and two times k^2 pairs.",
+    f"{HULLS} The article claims this for overlap queries only; by construction no query has more"
+    " than k^2 pairs. It makes no claim on sweeps, which are listed without a verdict. There each"
+    " pair of faces and each pair of a virtual edge and a face counts as one operation: up to 3k"
+    " virtual edges against k faces, and twice k^2 pairs.",
 )
 def after_selection(runs: Runs):
     found = sizes.operations(runs.file("sizes/sizes.parquet"))
@@ -139,8 +139,8 @@ def after_selection(runs: Runs):
         HOLDS if most <= 1 else FAILS,
         f"overlap: at most {most:.3g} (k^2 + 3k); n={still.queries.sum()} queries",
         (
-            f"At {MANY} faces and k = 8 an overlap query takes {share:.1e} of n m, on average."
-            f" Sweeps, at most, in k^2 + 3k: {listed(flown)}."
+            f"At {MANY} faces and k = 8 an overlap query needs {share:.1e} of the n m operations on"
+            f" average. Maximum for sweeps, in units of k^2 + 3k: {listed(flown)}."
         ),
     )
 
@@ -148,11 +148,11 @@ def after_selection(runs: Runs):
 @claim(
     "A higher k is more accurate",
     BASIC,
-    "misses never rise from one k to the next, in any family (in part: not in all families"
-    " together)",
+    "misses do not rise from any k to the next in any family (in part: they do not rise over all"
+    " families together)",
     "k/tables/k-misses.md",
-    "With k at or above the number of faces (inf) all are selected, which leaves what the tests"
-    " themselves miss.",
+    "If k is at least the number of faces (inf), all faces are selected; the remaining misses are"
+    " those of the tests.",
 )
 def higher_k(runs: Runs):
     found = runs.answers("k")
@@ -165,7 +165,7 @@ def higher_k(runs: Runs):
         }
     )
     if len(ks) < 2:
-        raise Missing("fewer than two k in run k")
+        raise Missing("run k has fewer than two values of k")
     methods = [f"ofg k={k:g}" for k in ks]
     pooled = {k: rate(found, method=m) for k, m in zip(ks, methods)}
     missed = (
@@ -183,16 +183,16 @@ def higher_k(runs: Runs):
     counts = [r.count for r in pooled.values()]
     falls = all(a >= b for a, b in zip(counts, counts[1:])) and counts[0] > counts[-1]
     text = (
-        f"Misses by k: {listed(pooled)}. {lost} of {len(missed)} cases are found by some k and"
-        " missed by the next larger one"
+        f"Misses by k: {listed(pooled)}. {lost} of {len(missed)} cases are found with some k and"
+        " missed with the next larger one"
     )
     text += (
-        f"; misses rise somewhere in {', '.join(rising)}."
+        f"; misses rise from some k to the next in {', '.join(rising)}."
         if rising
-        else "; misses rise in no family."
+        else "; misses do not rise in any family."
     )
     text += (
-        " Net time of k = 64 over that of k = 8:"
+        " Ratio of the net time of k = 64 to that of k = 8:"
         f" {ratios_listed(lambda: runs.times('k'), 'ofg k=64', 'ofg k=8', 'question')}."
     )
     return (
@@ -205,25 +205,26 @@ def higher_k(runs: Runs):
 @claim(
     "k of 4 to 8 is enough",
     f"{BASIC}, typical values",
-    f"misses of shallow overlaps with k = 8 under {MISSES:.0%} at every size",
+    f"the rate of misses of shallow overlaps with k = 8 is under {MISSES:.0%} at every size",
     "sizes/tables/misses.md k/tables/k-misses.md",
-    f"{HULLS} {depth_range('shallow')}.",
+    f"{HULLS} Overlaps {depth_range('shallow')}.",
 )
 def typical_k(runs: Runs):
     eight, four = (size_rates(runs, "shallow", k) for k in (8, 4))
     return (
         are_small(eight.values()),
         f"missed with k=8: {spread(eight)}",
-        f"By faces, k = 8: {listed(eight)}. k = 4: {listed(four)}.",
+        f"Misses by faces with k = 8: {listed(eight)}. With k = 4: {listed(four)}.",
     )
 
 
 @claim(
     "Small faces need a higher k",
     BASIC,
-    "k = 8 misses more of the largest bodies than of the smallest, intervals apart",
+    "the rate of misses with k = 8 is higher for the largest bodies than for the smallest, with"
+    " disjoint intervals",
     "sizes/tables/misses.md",
-    f"{HULLS} Shallow overlaps. k of {', '.join(map(str, sizes.KS))}.",
+    f"{HULLS} Shallow overlaps. Values of k: {', '.join(map(str, sizes.KS))}.",
 )
 def small_faces(runs: Runs):
     eight = size_rates(runs, "shallow", 8)
@@ -246,8 +247,8 @@ def small_faces(runs: Runs):
 @claim(
     "Best for convex bodies of few faces",
     BASIC,
-    f"k = 8 misses less up to {FEW} faces than from {MANY} on, shallow and deep together, intervals"
-    " apart",
+    f"the rate of misses with k = 8, shallow and deep together, is lower for up to {FEW} faces than"
+    f" for {MANY} faces or more, with disjoint intervals",
     "sizes/tables/misses.md concavity/tables/concavity-wrong.md",
     f"{HULLS} Concave bodies are measured below.",
 )
@@ -258,34 +259,37 @@ def low_poly(runs: Runs):
     )
     return (
         (HOLDS if few.high < many.low else FAILS if few.low > many.high else OPEN),
-        f"missed with k=8: up to {FEW} faces {few}, from {MANY} {many}",
+        f"missed with k=8: up to {FEW} faces {few}, {MANY} faces or more {many}",
         "",
     )
 
 
 @claim(
-    "Once bodies are in each other, the closest faces are the wrong ones",
+    "Once bodies interpenetrate, the closest faces are the wrong ones",
     f"{PROBLEMS}, second",
-    "k = 8 misses more deep than shallow overlaps at every size, intervals apart (in part: at"
-    " some)",
+    "the rate of misses with k = 8 is higher for deep than for shallow overlaps at every size, with"
+    " disjoint intervals (in part: at some sizes)",
     "sizes/tables/misses.md gap/tables/gap-deep.md",
-    f"{HULLS} Deep: {depth_range('deep')}. The article names this problem for moving bodies; it is"
-    " there at rest too.",
+    f"{HULLS} Deep: {depth_range('deep')}. The article describes this problem for moving bodies; it"
+    " also affects bodies at rest.",
 )
 def deep(runs: Runs):
     inside, shallow = (size_rates(runs, depth, 8) for depth in ("deep", "shallow"))
     worse = {faces: r.low > shallow[faces].high for faces, r in inside.items()}
-    text = f"By faces, k = 8: {listed(inside)}. k = 64: {listed(size_rates(runs, 'deep', 64))}."
+    text = (
+        f"Misses by faces with k = 8: {listed(inside)}. With k = 64:"
+        f" {listed(size_rates(runs, 'deep', 64))}."
+    )
     same_centre = {
         f"k = {k}": or_reason(
             lambda k: rate(runs.answers("gap"), method=f"ofg k={k}", scenario="deep"), k
         )
         for k in (8, 64)
     }
-    text += f" Bodies with nearly the same centre (`deep`): {listed(same_centre)}."
+    text += f" Bodies with nearly equal centres (`deep`): {listed(same_centre)}."
     return (
         (HOLDS if all(worse.values()) else PART if any(worse.values()) else FAILS),
-        f"deep, missed with k=8: {spread(inside)}",
+        f"deep overlaps missed with k=8: {spread(inside)}",
         text,
     )
 
@@ -293,20 +297,21 @@ def deep(runs: Runs):
 @claim(
     "Cheaper than all pairs of faces",
     f"{BASIC}, k^2 + 3k against n m",
-    "all pairs take longer than k = 8 in every cell of size and situation, interval above 1 (in"
-    " part: in some)",
+    "all pairs take longer than k = 8 in every cell of size and situation, with the interval of the"
+    " ratio above 1 (in part: in some cells)",
     "faces/tables/faces-ratio.md k/tables/k-net.md",
-    "Net times from Python, paired case by case; both are our own code. No verdict on cells in"
-    " which the net time of k = 8 is, in half of the cases or more, no more than the interquartile"
-    f" range of its floor's rounds, or of fewer than {FEWEST} other cases. All pairs are tested"
-    " without a tree: an engine's mesh test (fcl-mesh) is the fairer rival, below.",
+    "Ratios of net times from Python, paired case by case; both methods are our own code. A cell is"
+    " left out if the net time of k = 8 lies within the interquartile range of its floor's rounds"
+    f" in half of its cases or more, or if it has fewer than {FEWEST} other cases. All pairs are"
+    " tested without a bounding volume hierarchy; an engine's mesh test (fcl-mesh, below) is the"
+    " fairer comparison.",
 )
 def all_pairs(runs: Runs):
     every = ratio(runs.times("faces"), "brute-force", "ofg k=8", ["level", "situation"])
     found = every[every.ratio.notna() & (every.pairs >= FEWEST)]
     left = len(every) - len(found)
     if found.empty:
-        raise Missing("no cell of run faces is out of the floor's noise")
+        raise Missing("every cell of run faces lies within the noise of the floor")
     slower, ordered = (found.low > 1).tolist(), found.sort_values("ratio")
     low, high = (f"{interval(r)} ({in_cell(r.Index)})" for r in ordered.iloc[[0, -1]].itertuples())
     named = {in_cell(key): times_more(r) for key, r in found.iterrows()}
@@ -315,12 +320,12 @@ def all_pairs(runs: Runs):
     return (
         HOLDS if all(slower) else PART if any(slower) else FAILS,
         (
-            f"slower in {sum(slower)} of {len(slower)} cells, {low} to {high} times as long; left"
+            f"all pairs slower in {sum(slower)} of {len(slower)} cells; ratio {low} to {high}; left"
             f" out: {left} of {len(every)} cells"
         ),
         (
-            f"All pairs over k = 8: {listed(named)}. Over k = 64, by faces: {faces}. Over k = 8,"
-            f" other cases and sweeps: {others}."
+            f"Ratio to k = 8: {listed(named)}. Ratio to k = 64, by faces: {faces}. Ratio to k = 8"
+            f" in run k, by question: {others}."
         ),
     )
 
@@ -330,12 +335,12 @@ def in_cell(key: tuple[float, str]) -> str:
 
 
 @claim(
-    "Faces alone tell (the article is silent on a body inside another)",
+    "Faces alone suffice (the article does not mention a body inside another)",
     BASIC,
-    f"misses of contained bodies with all faces under {MISSES:.0%}",
+    f"the rate of misses of contained bodies with all faces is under {MISSES:.0%}",
     "gap/tables/gap-contained.md",
-    "That a body inside another collides is this project's choice; methods of surfaces are meant to"
-    " say otherwise.",
+    "This project counts a body inside another as a collision; tests of surfaces are not designed"
+    " to report it.",
 )
 def contained(runs: Runs):
     found = rows(runs.answers("gap"), scenario="contained")
@@ -345,23 +350,24 @@ def contained(runs: Runs):
         m: or_reason(rate, inside, method=m)
         for m in ("ofg k=8", "ofg k=8 repairs=all", "fcl-convex", "fcl-mesh")
     }
-    return are_small([every]), f"missed with all faces: {every}", f"Others: {listed(others)}."
+    return are_small([every]), f"missed with all faces: {every}", f"Missed by: {listed(others)}."
 
 
 @claim(
-    "What it calls a hit is one",
+    "No false positives",
     f"{BASIC}, step 8",
-    f"false alarms of k = 8 under {MISSES:.0%} in each family",
+    f"the rate of false alarms with k = 8 is under {MISSES:.0%} in each family",
     "{board}/tables/accuracy-overlap.md {board}/tables/accuracy-translation.md"
     " {board}/tables/accuracy-motion.md gap/tables/gap-wrong.md",
-    "Touching counts as meeting, to double rounding, and pieces are not quite their mesh: both show"
-    " here as false alarms. Few clear cases of a family leave its interval wide.",
+    "OFG reports touching faces as a hit, up to rounding in double precision, and pieces differ"
+    " slightly from their mesh; both appear here as false alarms. A family with few clear cases has"
+    " a wide interval.",
 )
 def false_alarms(runs: Runs):
     found = runs.answers(runs.board)
     own = by_family(found, "ofg k=8", "false alarms")
     if not own:
-        raise Missing(f"no certified clears in run {runs.board}")
+        raise Missing(f"run {runs.board} has no certified clear cases")
     some = {name: r for name, r in own.items() if r.count}
     asked = {
         q: or_reason(rate, found, "false alarms", method="ofg k=8", question=q)
@@ -380,8 +386,8 @@ def false_alarms(runs: Runs):
         are_small(own.values()),
         f"false alarms of k=8: {spread(own)}",
         (
-            f"By family, {len(own) - len(some)} of {len(own)} without any:"
-            f" {listed(some) or 'none'}. By question: {listed(asked)}. By feature gap:"
+            f"{len(own) - len(some)} of {len(own)} families have no false alarm; the others:"
+            f" {listed(some) or 'none'}. By question: {listed(asked)}. In `feature_gap`:"
             f" {or_reason(closest)}."
         ),
     )

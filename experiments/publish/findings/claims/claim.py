@@ -1,8 +1,8 @@
-"""What a claim is, and what is found of it.
+"""Claims and findings.
 
-A claim is made of a function of the runs that returns a verdict, the number that carries it, and
-what else was found. The words around it (the claim, where the article makes it, the rule of the
-verdict, where the rows are, the limits) are given to the decorator.
+A claim wraps a function of the runs that returns a verdict, the number on which it is based, and
+further results. The decorator takes the accompanying text: the claim, its section in the article,
+the rule of the verdict, the tables and the limits.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ class Finding:
 
 
 def claim(title: str, section: str, rule: str, where: str, limits: str):
-    """Make a claim of a function Runs -> (verdict, number, text).
+    """Turn a function Runs -> (verdict, number, text) into a claim.
 
-    where: tables, with {board} for the run that has every family.
+    where: paths of tables, separated by blanks; {board} is the run with every family.
     """
     return lambda find: Claim(title, section, rule, tuple(where.split()), limits, find)
 
@@ -49,4 +49,4 @@ def finding(asked: Claim, runs: Runs) -> Finding:
     try:
         return Finding(asked, *asked.find(runs))
     except Missing as reason:
-        return Finding(asked, UNMEASURED, f"not measured ({reason})", "")
+        return Finding(asked, UNMEASURED, str(reason), "")

@@ -1,4 +1,4 @@
-"""Claims of the remedy for concave bodies."""
+"""Claims on the algorithm for concave bodies."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ from .claim import CONCAVE, PROBLEMS, claim
 @claim(
     "The pieces with the closest centres are the ones to test",
     CONCAVE,
-    f"misses with k = 8 under {MISSES:.0%} in each concave family",
+    f"the rate of misses with k = 8 is under {MISSES:.0%} in each concave family",
     "concavity/tables/concavity-misses.md concavity/tables/concavity-wrong.md",
-    "Pieces by CoACD at its default threshold; where they are not quite the mesh, all pairs of"
-    " pieces err too.",
+    "CoACD makes the pieces at its default threshold. Where they differ from the mesh, testing all"
+    " pairs of pieces also gives wrong answers.",
 )
 def one_pair_of_pieces(runs: Runs):
     found = runs.answers("concavity")
@@ -41,17 +41,17 @@ def one_pair_of_pieces(runs: Runs):
     return (
         are_small(own.values()),
         f"missed with k=8: {spread(own)}",
-        f"By family, k = 8: {listed(own)}. All of them: {listed(others)}.",
+        f"By family, k = 8: {listed(own)}. All families together: {listed(others)}.",
     )
 
 
 @claim(
     "Some concave bodies work undivided, and some case will fail",
     f"{PROBLEMS}, first",
-    "the undivided surface is right of some concave hits and misses others",
+    "with the undivided surface, some concave hits are found and others missed",
     "concavity/tables/concavity-wrong.md",
-    "Surfaces of up to thousands of faces: the selection misses some of it whatever the shape,"
-    " hence k = 64 and all faces beside it.",
+    "The surfaces have up to thousands of faces, of which a selection covers only a part whatever"
+    " the shape; k = 64 and all faces are therefore given for comparison.",
 )
 def undivided(runs: Runs):
     found = runs.answers("concavity")
@@ -62,12 +62,12 @@ def undivided(runs: Runs):
         failed[more] & failed["ofg k=8 concave=undivided"] - failed.get("brute-force", set())
     )
     text = (
-        f"k = 64: {rate(found, method=more)}; all faces:"
-        f" {or_reason(rate, found, method='brute-force')}. Missed at rest by"
+        f"Missed with k = 64: {rate(found, method=more)}; with all faces:"
+        f" {or_reason(rate, found, method='brute-force')}. Example of an overlap missed with both k"
     )
     text += (
-        f" both k, found by all faces: `ofg-bench explain {shown[0]} --run results/concavity`."
+        f" and found with all faces: `ofg-bench explain {shown[0]} --run results/concavity`."
         if shown
-        else " both k: no case."
+        else " and found with all faces: none."
     )
     return (HOLDS if 0 < missed.count < missed.total else FAILS), f"missed with k=8: {missed}", text

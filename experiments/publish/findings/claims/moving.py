@@ -1,4 +1,4 @@
-"""Claims of the remedies for moving and turning bodies."""
+"""Claims on the algorithms for translating and rotating bodies."""
 
 from __future__ import annotations
 
@@ -35,12 +35,13 @@ from .claim import TIME, TURN, claim
 
 
 @claim(
-    "Virtual edges stop what flies through a thin wall",
+    "Virtual edges prevent tunnelling through thin walls",
     TIME,
-    f"tunnelled with k = 8 under {MISSES:.0%} in each family of walls",
+    f"the rate of tunnelling with k = 8 is under {MISSES:.0%} in each family of walls",
     "tunnelling/tables/tunnelling-straight.md tunnelling/tables/tunnelling-thin.md"
     " tunnelling/tables/tunnelling-turning.md",
-    "Walls larger than the body, hit by its vertices. Edges and B's vertices: next.",
+    "The walls are larger than the body and are hit by its vertices. The next claim covers edges"
+    " and the vertices of B.",
 )
 def thin_walls(runs: Runs):
     found = runs.answers("tunnelling")
@@ -52,7 +53,7 @@ def thin_walls(runs: Runs):
         are_small(own.values()),
         f"tunnelled with k=8: {spread(own)}",
         (
-            f"{found.level.min():g} to {found.level.max():g} thicknesses in a step. k = 8:"
+            f"{found.level.min():g} to {found.level.max():g} thicknesses per step. k = 8:"
             f" {listed(own)}. All faces: {listed(all_faces)}. 16 samples of the path:"
             f" {listed(sampled)}."
         ),
@@ -60,14 +61,14 @@ def thin_walls(runs: Runs):
 
 
 @claim(
-    "Virtual edges, the start and the end find every other collision in flight",
+    "Virtual edges, the start and the end find all other collisions of translating bodies",
     TIME,
-    f"misses of straight flights under {MISSES:.0%} with all faces in place of k (what the"
-    " selection cannot be blamed for)",
+    f"the rate of misses of translations is under {MISSES:.0%} with all faces instead of k (misses"
+    " that are not due to the selection)",
     "{board}/tables/scenarios-translation.md {board}/tables/accuracy-translation.md"
     " k/tables/k-feature.md",
-    "Families are aimed at difficulties, and pooled as the run weights them. Brute force makes the"
-    " same three tests with all faces.",
+    "The families are designed to be difficult, and are pooled with the numbers of cases of the"
+    " run. Brute force applies the same three tests to all faces.",
 )
 def flights(runs: Runs):
     found = rows(runs.answers(runs.board), question="translation")
@@ -91,20 +92,21 @@ def flights(runs: Runs):
         are_small([every]),
         f"missed: all faces {every}, k=8 {own}",
         (
-            f"All repairs: {whole}. All faces miss most in {worst_families(found, 'brute-force')};"
-            f" in `contact` by the features that meet, of A and B: {or_reason(features)}."
+            f"With all repairs: {whole}. Families with the highest rates for all faces:"
+            f" {worst_families(found, 'brute-force')}. Misses of all faces in `contact`, by the"
+            f" features of A and B in contact: {or_reason(features)}."
         ),
     )
 
 
 @claim(
-    "Step 1, spheres at the start, suits moving bodies",
+    "Step 1, with spheres at the start, is sufficient for moving bodies",
     f"{TIME}, step 2 read literally",
-    f"hits that swept spheres find and spheres at the start do not are under {MISSES:.0%}, in"
-    " flight and in turning flight",
+    f"the share of hits found with swept spheres but not with spheres at the start is under"
+    f" {MISSES:.0%}, both for translations and for motions",
     "{board}/tables/accuracy-translation.md {board}/tables/accuracy-motion.md",
-    "Where the wall is large, its sphere holds the body from the start, and the reading makes no"
-    " difference.",
+    "The bounding sphere of a large wall contains the body from the start, so that both readings"
+    " give the same answer.",
 )
 def start_spheres(runs: Runs):
     found, lost = rows(runs.answers(runs.board), label="hit", status="ok"), {}
@@ -116,32 +118,32 @@ def start_spheres(runs: Runs):
             .dropna()
         )
         if missed.shape[1] < 2:
-            raise Missing(f"one of the readings in run {runs.board}")
+            raise Missing(f"run {runs.board} has only one of the two readings")
         missed = missed.astype(bool)
         lost[question] = share_of(missed["ofg k=8 broad=start"] & ~missed["ofg k=8"])
     return (
         are_small(lost.values()),
-        f"hits lost by it: {listed(lost)}",
-        "Swept spheres, the other reading, are the default here.",
+        f"hits lost: {listed(lost)}",
+        "Swept spheres, the other reading, are the default in this project.",
     )
 
 
 IMPACT = "impact/tables/impact-angle.md impact/tables/impact-turn.md impact/tables/impact-net.md"
 ESTIMATES = (
-    "Estimates only: hits found whose step begins clear, but for those at an end. Rows do not"
-    " record what met: where the time by relative velocity is exactly 0 or 1 the hit is taken for"
-    " one at an end, by every estimate of the same method."
-    " Misses stand in impact/tables/impact-misses.md."
+    "The figures cover hits found in steps that start clear, except those found at an end of the"
+    " step. Rows do not record which features met; if the time by relative velocity is exactly 0 or"
+    " 1, the hit counts as found at an end, for every estimate of the same method. The table"
+    " impact/tables/impact-misses.md contains the misses."
 )
-READINGS = {"the ends first": "", "his list of steps": " order=steps"}
-WITHIN = f"95 % of the times within {LATE:g} of the step"
+READINGS = {"ends first": "", "order of the article's steps": " order=steps"}
+WITHIN = f"95 % of the times have an error of at most {LATE:g} of the step"
 
 
 def estimates(runs: Runs, method: str) -> pd.DataFrame:
-    """Hits found that begin clear and are not found at an end: `error` is NaN without a time."""
+    """Hits found that start clear and are not found at an end; `error` is NaN without a time."""
     found = rows(runs.answers("impact"), outcome="right", label="hit", start="clear")
     hits = rows(found, method=method)
-    alike = rows(found, method=re.sub(r" toi=\S+", "", method))  # the same but for the estimate
+    alike = rows(found, method=re.sub(r" toi=\S+", "", method))  # the method with default estimate
     between = hits[~hits.case.isin(alike.case[alike.time.isin([0.0, 1.0])])]
     if between.empty:
         raise Missing(f"no estimate of {method} in run impact")
@@ -149,7 +151,7 @@ def estimates(runs: Runs, method: str) -> pd.DataFrame:
 
 
 def impact(runs: Runs, method: str) -> tuple[str, str]:
-    """(verdict, number) of an estimate of the time of impact; no time is not within."""
+    """(verdict, number) of an estimate of the time of impact; a missing time counts as wrong."""
     found = estimates(runs, method)
     off = found.error.abs()
     share = (off <= LATE).mean()
@@ -157,7 +159,7 @@ def impact(runs: Runs, method: str) -> tuple[str, str]:
     lost = f"; {off.isna().sum()} of {len(off)} hits without a time" if off.isna().any() else ""
     error = metrics.times_of_impact(found, ["method"])
     if error.empty:
-        return verdict, f"no time at all{lost}"
+        return verdict, f"no times{lost}"
     e = error.iloc[0]
     timed = found.assign(off=off).dropna(subset=["off"])
     middle = costs.medians(timed, "off", ["method"]).iloc[0]
@@ -172,10 +174,11 @@ def impact(runs: Runs, method: str) -> tuple[str, str]:
 
 
 def impacts(runs: Runs, methods: dict[str, str]) -> tuple[str, str]:
-    """(verdict, number) of several estimates: that of all, or in part."""
+    """(verdict, number) of several estimates; verdicts that differ give "holds in part"."""
     each = {name: impact(runs, method) for name, method in methods.items()}
     number = "; ".join(f"{name}: {said}" for name, (_, said) in each.items())
-    return overall(verdict for verdict, _ in each.values()), f"error, in steps: {number}"
+    verdict = overall(verdict for verdict, _ in each.values())
+    return verdict, f"error as a share of the step: {number}"
 
 
 def others(runs: Runs, methods: dict[str, str]) -> str:
@@ -185,31 +188,33 @@ def others(runs: Runs, methods: dict[str, str]) -> str:
 @claim(
     "Relative velocity gives the time of impact",
     f"{TIME}, first estimate; {TURN}",
-    f"{WITHIN} (in part: half of them, or in one reading of the two), with the ends tested before"
-    " the virtual edges and with his list of steps read literally",
+    f"{WITHIN} (in part: half of them, or in one of the two readings), both with the ends tested"
+    " before the virtual edges and with the article's list of steps read literally",
     f"{IMPACT} impact/tables/impact-latest.md",
     ESTIMATES,
 )
 def velocity(runs: Runs):
     verdict, number = impacts(runs, {n: f"ofg k=8{order}" for n, order in READINGS.items()})
     instead = {
-        "the earliest of all virtual edges of the selection (repair `earliest`)": (
+        "earliest of all virtual edges of the selection (repair `earliest`)": (
             "ofg k=8 repairs=earliest"
         ),
-        "with all repairs": "ofg k=8 repairs=all",
+        "all repairs": "ofg k=8 repairs=all",
     }
-    text = "The time is that of the first virtual edge found, not of the earliest. Instead "
+    text = "The time is that of the first virtual edge found, not of the earliest. Alternatives: "
     return verdict, number, f"{text}{others(runs, instead)}."
 
 
 @claim(
     "Halving the step gives the time of impact",
     f"{TIME}, second estimate; {TURN}",
-    f"{WITHIN}, and a hit without a time is not (in part: half of them, or in one reading of the"
-    " two): read literally (`toi=halving`), and with the bracket kept (`toi=bisection`)",
+    f"{WITHIN}, where a hit without a time counts as an error (in part: half of them, or in one of"
+    " the two readings), both read literally (`toi=halving`) and as a bisection that keeps a"
+    " bracket (`toi=bisection`)",
     f"{IMPACT} impact/tables/impact-latest.md",
-    f"{ESTIMATES} Read literally, half of what is left of the step is moved each time, to 1/2, 3/4"
-    " and so on, and the first move that meets is the time; where none does there is no time.",
+    f"{ESTIMATES} Read literally, each iteration moves the body by half of the rest of the step, to"
+    " 1/2, 3/4 and so on; the time is that of the first position with contact, and there is no time"
+    " if no position has contact.",
 )
 def halving(runs: Runs):
     ways = {"halving": "ofg k=8 toi=halving", "bisection": "ofg k=8 toi=bisection"}
@@ -224,8 +229,9 @@ def halving(runs: Runs):
         verdict,
         number,
         (
-            f"By his list of steps: {steps}. Time over that of the velocity estimate, net:"
-            f" {listed(price)}. The article's log n is at most {halvings} halvings here."
+            f"In the order of the article's steps: {steps}. Ratio of net time to that of the"
+            f" velocity estimate: {listed(price)}. The article's log n iterations are at most"
+            f" {halvings} here."
         ),
     )
 
@@ -233,12 +239,12 @@ def halving(runs: Runs):
 @claim(
     "Faces that meet at the start or at the end need no time",
     f"{TIME}, last paragraph",
-    "of the hits that k = 8 finds at an end of the step, two faces are named that do meet there but"
-    f" for under {MISSES:.0%}",
+    "among the hits found with k = 8 at an end of the step, the share for which OFG does not name"
+    f" two faces that intersect there is under {MISSES:.0%}",
     "impact/tables/impact-latest.md impact/tables/impact-misses.md",
-    "Asked of OFG anew, of the sweeps of the run that are certified to begin or to end in contact;"
-    " whether the two faces meet is tested by separating axes. The time is then that end, 0 or 1."
-    " How late that is has no part in the verdict, as the article says that none is needed.",
+    "OFG is run again on the sweeps of the run that are certified to start or end in contact; a"
+    " separating axis test checks whether the two faces intersect. The reported time is that end, 0"
+    " or 1. Its error does not affect the verdict, as the article needs no time in this case.",
 )
 def untimed(runs: Runs):
     found = runs.known("impact")
@@ -250,21 +256,22 @@ def untimed(runs: Runs):
     return (
         are_small([unknown]),
         (
-            f"faces known: {met} of {len(at_end)}, unknown {unknown}; the time is late by"
+            f"faces known for {met} of {len(at_end)}, unknown for {unknown}; the time is late by"
             f" {late.median():.1e} (median) and at most {late.max():.1e} of the step"
         ),
-        f"Of all {len(found)} such sweeps the faces are known of {met}: found {listed(ways)}.",
+        f"The faces are known for {met} of all {len(found)} such sweeps. Sweeps by how the hit was"
+        f" found: {listed(ways)}.",
     )
 
 
 @claim(
-    "Chords of the vertices' paths do for rotation",
+    "Linearised vertex paths suffice for rotation",
     TURN,
-    f"misses with k = 8 under {MISSES:.0%} in each family of turns",
+    f"the rate of misses with k = 8 is under {MISSES:.0%} in each family of rotations",
     "rotation/tables/rotation-side.md rotation/tables/rotation-contact.md"
     " rotation/tables/rotation-turns.md rotation/tables/rotation-chord.md",
-    "Families are aimed at the chord's error, and most turns are larger than the 45 degrees in a"
-    " step that the article calls very fast.",
+    "The families are designed to expose the linearisation error, and most rotations exceed the 45"
+    " degrees per step that the article calls very fast.",
 )
 def chords(runs: Runs):
     found = runs.answers("rotation")
@@ -274,9 +281,10 @@ def chords(runs: Runs):
         for m in ("brute-force", "ofg k=8 repairs=arcs", "ofg k=8 repairs=selection-times")
     )
     text = (
-        f"By family, k = 8: {listed(own)}. All of them: k = 8 {rate(found, method='ofg k=8')}; all"
-        f" faces {every}, which is not the selection's doing; selections at several times alone"
-        f" {later}; arcs in place of chords alone {arcs}."
+        f"By family, k = 8: {listed(own)}. All families together: k = 8"
+        f" {rate(found, method='ofg k=8')}; all faces, without a selection, {every}; only the"
+        f" repair with selections at several times {later}; only the repair with arcs instead of"
+        f" chords {arcs}."
     )
     # levels of both are angles
     gentle = found[
@@ -284,7 +292,7 @@ def chords(runs: Runs):
     ]
     if len(gentle):
         text += (
-            " Up to the article's 45 degrees in a step (`spin_side`, `rotational_contact`): k = 8"
+            " Up to 45 degrees per step (`spin_side`, `rotational_contact`): k = 8"
             f" {rate(gentle, method='ofg k=8')}."
         )
     return are_small(own.values()), f"missed with k=8: {spread(own)}", text

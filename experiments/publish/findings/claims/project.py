@@ -1,4 +1,4 @@
-"""What the project asks beside the article: speed against engines, robustness, the repairs."""
+"""Claims of the project that are not in the article: speed, robustness and repairs."""
 
 from __future__ import annotations
 
@@ -32,15 +32,15 @@ COMPARED = {"generic": "SSE2 and generic builds", V3: f"AVX2 and {V3} builds"}
 
 
 @claim(
-    "Faster than the engines (the project's question, not the article's)",
+    "Faster than the engines (a question of this project, not a claim of the article)",
     "-",
-    "k = 8 takes less than the fastest engine in every cell of size, situation and class of build,"
-    " interval under 1 (in part: in some)",
+    "k = 8 takes less time than the fastest engine in every cell of size, situation and class of"
+    " build, with the interval of the ratio under 1 (in part: in some cells)",
     "native/native.md faces/tables/faces-ratio.md",
-    "The libraries in C++, each pair with bodies of its own: the quotient pair by pair, with the"
-    " engine that takes least in the cell, whatever it answers. OFG with SSE2 stands beside generic"
-    f" builds, with AVX2 beside builds for {V3}, where there is one. What k = 8 misses of such"
-    " bodies stands above.",
+    "The libraries run in C++, and each pair has its own bodies. The ratio is taken pair by pair to"
+    " the engine with the least time in the cell, whatever it answers. OFG with SSE2 is compared"
+    f" with generic builds, and OFG with AVX2 with builds for {V3}, where they exist. The claims"
+    " above give the misses of k = 8 on such bodies.",
 )
 def engines_speed(runs: Runs):
     found = rows(runs.file("native/rows.parquet"), engine=OURS, mode="cold", bodies="hull")
@@ -49,8 +49,8 @@ def engines_speed(runs: Runs):
     wins, least = (every.high < 1).tolist(), every.loc[every.ratio.idxmin()]
     most = every.loc[every.ratio.idxmax()]
     number = (
-        f"faster in {sum(wins)} of {len(wins)} cells; {interval(least)} ({named(least)}) to"
-        f" {interval(most)} ({named(most)}) of the fastest engine's time"
+        f"faster in {sum(wins)} of {len(wins)} cells; ratio to the fastest engine"
+        f" {interval(least)} ({named(least)}) to {interval(most)} ({named(most)})"
     )
     listing = " ".join(
         f"{name}: {listed({named(r): interval(r) for _, r in part.iterrows()})}."
@@ -62,32 +62,33 @@ def engines_speed(runs: Runs):
         (HOLDS if all(wins) else PART if any(wins) else FAILS),
         number,
         (
-            f"k = 8 over the fastest engine, by situation and faces. {listing} At most a third of"
-            f" its time in {third} of {len(wins)} cells. All repairs over k = 8, net, from Python,"
-            f" by faces: {repaired}."
+            f"Ratio of k = 8 to the fastest engine, by situation and faces. {listing} In {third} of"
+            f" {len(wins)} cells k = 8 takes at most a third of its time. Ratio of all repairs to"
+            f" k = 8, net times from Python, by faces: {repaired}."
         ),
     )
 
 
 def named(row: pd.Series) -> str:
-    """A cell, and what is compared with in it."""
+    """A cell and the engine with which OFG is compared in it."""
     return f"{row.situation} {row.faces}, {row.over}"
 
 
-#: faces -> what share of the fastest engine's time k = 8 may take at small gaps: the project's aim
+#: faces -> the project's aim at small gaps: the largest ratio of k = 8 to the fastest engine
 GOAL = {12: 1 / 3, 320: 1 / 5, 1280: 1 / 5}
 
 
 @claim(
-    "At small gaps, screened by a plane and in batches, a third of the fastest engine's time at 12"
-    " faces, a fifth at 320 and 1,280 (the project's aim, not the article's)",
+    "At small gaps, with a separating plane screen and in batches: a third of the fastest engine's"
+    " time at 12 faces, and a fifth at 320 and 1,280 (an aim of this project, not of the article)",
     "-",
-    "k = 8 in double, screened in batch, within these shares for every shape and class of build (in"
-    f" part: for some, or of a run without one of {', '.join(LIBRARIES.values())})",
+    "k = 8 in double precision, screened and in batches, stays within these shares for every shape"
+    " and class of build (in part: for some, or if the run lacks one of"
+    f" {', '.join(LIBRARIES.values())})",
     "native/native.md",
-    "A screen is no step of the article: it settles what a plane between the whole bodies keeps"
-    " apart, with the answers of the eight steps. Engines are asked pair by pair, as none answers"
-    " many poses in one call. The quotient block of poses by block.",
+    "The screen is not a step of the article: it decides queries in which a plane separates the"
+    " whole bodies, and gives the answers of the eight steps. The engines run pair by pair, as none"
+    " accepts many poses in one call. The ratio is taken per block of poses.",
 )
 def batch_speed(runs: Runs):
     every = runs.file("native/rows.parquet")
@@ -106,19 +107,19 @@ def batch_speed(runs: Runs):
     )
     alone = rows(every, engine=OURS, mode="warm", situation="gap")
     verdict = HOLDS if all(reached) else PART if any(reached) else FAILS
-    lacking = f", {' and '.join(absent)} not asked" if absent else ""
+    lacking = f" (without {' and '.join(absent)})" if absent else ""
     return (
         PART if absent and verdict == HOLDS else verdict,
-        f"of the time of the fastest engine asked{lacking}: {number}",
+        f"ratio to the fastest engine measured{lacking}: {number}",
         (
-            f"Over all shapes and sizes, screened in batch: {ranges(batch)}. The eight steps alone,"
-            f" one pair at a time: {ranges(alone)}."
+            f"Over all shapes and sizes, screened and in batches: {ranges(batch)}. Without the"
+            f" screen, one pair at a time: {ranges(alone)}."
         ),
     )
 
 
 def ranges(part: pd.DataFrame) -> str:
-    """The least and the largest quotient of each situation and class, with what they are of."""
+    """The least and the largest ratio of each situation and class, with their cells."""
     found = {}
     for (situation, key), group in part.groupby(["situation", "class"], observed=True, sort=False):
         ends = [group.loc[group.ratio.idxmin()], group.loc[group.ratio.idxmax()]]
@@ -128,13 +129,14 @@ def ranges(part: pd.DataFrame) -> str:
 
 
 @claim(
-    "Units, place and shape do not matter (not in the article)",
+    "Units, position and shape do not affect accuracy (not in the article)",
     "-",
-    f"wrong answers of k = 8 under {MISSES:.0%} in each family",
+    f"the rate of wrong answers with k = 8 is under {MISSES:.0%} in each family",
     "robustness/tables/robustness-scale.md robustness/tables/robustness-offset.md"
     " robustness/tables/robustness-aspect.md robustness/tables/robustness-ratio.md"
     " robustness/tables/robustness-tilt.md",
-    "Slivers and size ratios go through the selection as well: compare all faces.",
+    "Slivers and size ratios also affect the selection; the figures for all faces show the tests"
+    " alone.",
 )
 def robust(runs: Runs):
     found = runs.answers("robustness")
@@ -153,13 +155,13 @@ def robust(runs: Runs):
 
 
 @claim(
-    "With all repairs nothing is missed (ours, not the article's)",
+    "With all repairs there are no misses (of this project, not of the article)",
     "-",
-    f"no miss, and its interval under {MISSES:.0%}, of each question (in part: of some)",
+    f"no miss, with an interval under {MISSES:.0%}, for each question (in part: for some)",
     "repairs/tables/repairs-overlap.md repairs/tables/repairs-translation.md"
     " repairs/tables/repairs-motion.md repairs/tables/repairs-ratio.md",
-    "Of the bodies and families that are named, no others. The repairs were made while looking at"
-    " these families, and all runs share a seed: a case of one name is the same everywhere.",
+    "This covers only the bodies and families named. The repairs were developed on these families,"
+    " and all runs share a seed, so that cases of the same name are identical.",
 )
 def repaired(runs: Runs):
     found = runs.answers("repairs")
@@ -172,16 +174,16 @@ def repaired(runs: Runs):
         if "repairs=" in m and m != all_ and "all-but-" not in m
     }
     without = {m.split("all-but-")[1]: len(lost[m] - lost[all_]) for m in lost if "all-but-" in m}
-    text = f"Asked of {asked_of(runs, found, all_)}. "
+    text = f"Certified hits: {asked_of(runs, found, all_)}. "
     text += (
-        f"The article {rate(found, method=base)} missed. Of these each repair alone finds:"
-        f" {listed(alone)}. Left out of all, it brings back: {listed(without)}."
+        f"Without repairs {rate(found, method=base)} are missed. Of these misses, each repair alone"
+        f" removes: {listed(alone)}. Misses that reappear without one repair: {listed(without)}."
     )
     alarms = [or_reason(rate, found, "false alarms", method=m) for m in (base, all_)]
     text += (
-        " Price of all, net time over k = 8:"
+        " Ratio of net time of all repairs to that of k = 8:"
         f" {ratios_listed(lambda: runs.times('repairs'), all_, base, 'question')}. False alarms:"
-        f" article {alarms[0]}, with repairs {alarms[1]}."
+        f" without repairs {alarms[0]}, with all repairs {alarms[1]}."
     )
 
     def everywhere():
@@ -193,7 +195,7 @@ def repaired(runs: Runs):
         once = pd.concat(each or [found.iloc[:0]]).drop_duplicates("case")
         return f"missed {rate(once)}, false alarms {rate(once, 'false alarms')}"
 
-    text += f" In all runs together, each case once: {or_reason(everywhere)}."
+    text += f" Over all runs, with each case counted once: {or_reason(everywhere)}."
     none = [r.count == 0 for r in by_question.values()]
     verdict = (
         OPEN
@@ -208,7 +210,7 @@ def repaired(runs: Runs):
 
 
 def asked_of(runs: Runs, found: pd.DataFrame, method: str) -> str:
-    """The bodies of the certified hits that a method was asked about, by kind and family."""
+    """The numbers of certified hits that a method answered, by kind of bodies and by family."""
     hits = rows(found, method=method, label="hit", status="ok")
     kind = hits.case.map(runs.bodies("repairs"))
     each = {

@@ -34,13 +34,16 @@ const microseconds = (ns) =>
   ns < 1e4 ? (ns / 1e3).toFixed(2) : ns < 1e5 ? (ns / 1e3).toFixed(1) : (ns / 1e3).toFixed(0);
 const plural = (n, one, many = one + "s") => `${n.toLocaleString("en")} ${n === 1 ? one : many}`;
 
-const MARKS = { r: "✓", m: "✗", f: "!", c: "≈", b: "·", n: "?", u: "–", e: "⚠", t: "⏱", ".": "" };
-const badge = (letter) =>
-  el(
+const MARKS = { r: "✓", m: "✗", f: "!", i: "≈", b: "·", n: "?", u: "–", e: "⚠", t: "⏱", ".": "" };
+const badge = (letter) => {
+  const kind = letter.toLowerCase(); // a capital letter: wrong within the method's tolerance
+  const within = kind === letter ? "" : " within tolerance";
+  return el(
     "span",
-    { class: `badge ${{ r: "good", m: "bad", f: "bad", c: "mild" }[letter] || "none"}` },
-    `${MARKS[letter]} ${D.codes[letter] || ""}`,
+    { class: `badge ${{ r: "good", m: "bad", f: "bad", i: "mild" }[kind] || "none"}` },
+    `${MARKS[kind]} ${D.codes[kind] || ""}${within}`,
   );
+};
 
 function select(label, options, value, change) {
   const box = el("select", { onchange: () => change(box.value), "data-name": label });

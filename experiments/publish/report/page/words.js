@@ -250,7 +250,7 @@ function verdicts(i, method) {
     }))
     .filter((r) => r.letter !== "." && !r.detail.startsWith("does not answer"));
   const sweep = D.cases.question[i] !== "overlap",
-    rank = { m: 0, f: 1, e: 2, t: 3, c: 4, b: 5, r: 6, n: 7, u: 8 };
+    rank = { m: 0, f: 1, e: 2, t: 3, i: 4, b: 5, r: 6, n: 7, u: 8 };
   const silent = D.labels.length - rows.length;
   return el(
     "div",
@@ -267,7 +267,7 @@ function verdicts(i, method) {
         {
           title: "Outcome",
           left: true,
-          key: (r) => rank[r.letter],
+          key: (r) => rank[r.letter.toLowerCase()],
           cell: (r) => [
             badge(r.letter),
             r.detail ? el("small", {}, r.detail) : "",

@@ -127,6 +127,17 @@ def test_the_glossary_is_embedded(open_page, written):
     assert "False alarm" in shown and page.locator("nav a[href='#terms']").count() == 1
 
 
+def test_every_outcome_has_a_badge(open_page, written):
+    """The badge of "contained", and of answers wrong within the tolerance, read "undefined": the
+    marks had another letter for the one and no capitals for the others.
+    """
+    page = open_page(written)
+    shown = page.evaluate("[...Object.keys(D.codes), 'M', 'F'].map((c) => badge(c).textContent)")
+    names = [*page.evaluate("Object.values(D.codes)"), "miss within", "false alarm within"]
+    assert not [text for text in shown if "undefined" in text]
+    assert all(name in text for name, text in zip(names, shown, strict=True))
+
+
 def test_the_leaderboard_counts_as_the_run_does(open_page, written, found):
     page = open_page(written)
     for question in ("overlap", "translation", "motion"):
