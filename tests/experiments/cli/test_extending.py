@@ -126,7 +126,7 @@ def test_a_broken_entry_point_is_named(tmp_path, group, line):
 
 def test_a_method_that_returns_no_verdict_costs_its_own_rows_and_is_told_what_to_return(tmp_path):
     (tmp_path / "falling_die.py").write_text(FILES["falling_die.py"])
-    wrong = FILES["spheres.py"].replace("return first(", "return True or first(")
+    wrong = FILES["spheres.py"].replace("return Verdict(", "return True or Verdict(")
     assert wrong != FILES["spheres.py"]
     (tmp_path / "spheres.py").write_text(wrong)
     (tmp_path / "dice.toml").write_text(FILES["dice.toml"])
