@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 # The two commands of the README: `make quick` and `make test`. Each creates the environment and
 # builds what it needs.
 PYTHON ?= $(shell command -v python3.11 || command -v python3)

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """All faces against all faces: the answer that OFG approaches as k grows."""
 
 from __future__ import annotations

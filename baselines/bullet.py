@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Bullet 3 through PyBullet: convex hulls by getClosestPoints, at one pose or at substeps.
 
 Sweeps are sampled, because getClosestPoints takes no motion. Bullet's continuous casts, which

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Bullet's continuous convex casts, which only its C++ library offers, through a native plugin.
 
 btSubsimplexConvexCast and btGjkConvexCast support translations, btContinuousConvexCollision also

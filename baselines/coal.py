@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Coal 3 (formerly hpp-fcl): convex and mesh overlap at one pose or at substeps. It has no
 continuous test.
 

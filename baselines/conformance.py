@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The conformance suite: checks the properties of a method in processes that may crash.
 
 `ofg-bench check METHOD` and the tests run it.

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The contract of a method: it prepares a query (the build, timed separately) and answers it
 (timed).
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Checks that a method's class attributes are complete and of the types that tables and records
 need.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Drake's SceneGraph: hulls at one pose or at substeps, by HasCollisions or by signed distance.
 
 A union is one geometry per piece on the same frame. Every call goes through Drake's system

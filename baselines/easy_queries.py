@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Easy queries: bodies and poses about which every method that answers must be right."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """FCL 0.7 through python-fcl: convex and mesh overlap, signed distance, and each usable mode of its
 continuous request.
 

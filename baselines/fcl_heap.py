@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The memory that FCL's InterpMotion reads and never wrote: what it finds there is set here."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The same query in another frame, for engines that support fewer motions than a Query."""
 
 from __future__ import annotations

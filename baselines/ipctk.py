@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """IPC Toolkit: exact triangle intersection, and continuous collision of vertices on straight lines
 (Tight-Inclusion).
 

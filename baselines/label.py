@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The label of a method: its name, then parameter=value for each parameter that is named."""
 
 from __future__ import annotations

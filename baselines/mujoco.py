@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """MuJoCo: signed distance of convex geoms at one pose or at substeps, and the sweep of its
 speculative contacts.
 

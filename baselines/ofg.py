@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Opposing Face Geometry itself, under the same contract as the engines."""
 
 from __future__ import annotations

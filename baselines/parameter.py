@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Checks that a parameter's value has the right type and lies in the range that the method
 declares.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """parry in float64 through py-parry3d: hulls and triangle meshes, at one pose or at substeps in one
 batched call.
 

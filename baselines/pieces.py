@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Concave meshes for engines that support convex shapes only: CoACD first decomposes the mesh,
 as the engines' documentation advises.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Properties required of every method.
 
 Each is a function of the method that yields a sentence for each fault. They pose easy queries only:

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Rapier 3D (parry in float32): overlap, and linear and nonlinear shape casts, on hulls and on
 triangle meshes.
 

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The registry of methods: find them by name, and make them from specifications in a
 configuration or on the command line.
 """

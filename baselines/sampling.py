@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Discrete engines: one overlap test at a pose, and sweeps that test sampled poses."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The documented tolerance of an engine: declared by each method and credited to each by one
 rule.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Best effort, part one: the units and the origin that suit an engine.
 
 Engines have absolute tolerances and margins, and lose digits far from the origin. A careful user

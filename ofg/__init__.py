@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Opposing Face Geometry (Eli Kara, GameDev.net 2004): a collision test that examines only the
 faces of two bodies that oppose each other.
 """

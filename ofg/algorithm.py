@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """OFG as functions: one query, or many poses of one pair of bodies in one call."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The results of OFG: one answer, or arrays of answers for arrays of poses."""
 
 from __future__ import annotations

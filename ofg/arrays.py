@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Poses and motions as rows of arrays, the form that the core takes."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A rigid body: a convex hull, a closed triangle mesh, or a union of convex pieces."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Argument checks, each of which raises a TypeError or a ValueError of one sentence."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Run CoACD in a separate process that can be terminated.
 
 Usage: coacd_child.py SECONDS < IN.npz > OUT.npz

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Convex decomposition of a concave mesh by CoACD, cached on disk by content."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Exact signs of geometric predicates: doubles with an error bound, and integers where it fails."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Objects whose arrays stay read-only, also in copies made by pickle and deepcopy."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Read mesh files as arrays, within a size limit, or report why a file cannot be read."""
 
 from __future__ import annotations

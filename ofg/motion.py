@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The motion of a body over one step: rotation about one of its points and translation, both at
 constant velocity.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The options of a query: the article by default, and every repair as a separate switch."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Convex pieces cached on disk: verified by a digest when read, readable by all permitted users."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Read OBJ, OFF, PLY and STL files as arrays: polygons with any number of corners, without
 silent loss.
 """

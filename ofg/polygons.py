@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Triangulation of polygons, convex or concave, into triangles that lie inside them."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A query about two bodies: the input of every method and the subject of every truth."""
 
 from __future__ import annotations

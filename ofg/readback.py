@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Read back stored bodies with the same vertices and faces, and check them like new bodies."""
 
 from __future__ import annotations

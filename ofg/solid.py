@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Validation of solids: arrays and closed surfaces are checked, normalised or rejected."""
 
 from __future__ import annotations

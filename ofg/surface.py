@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Topology of closed triangle surfaces: balanced edges, cancelling faces, connected parts."""
 
 from __future__ import annotations

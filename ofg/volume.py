@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The volume enclosed by a closed surface, even if the surface intersects or overlaps itself."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Atomic file writes: a file is complete or absent, even after a kill or a loss of power."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Exact winding numbers of closed surfaces: at points, and on the two sides of a face."""
 
 from __future__ import annotations

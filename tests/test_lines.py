@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """No file of ours is longer than 400 lines of 100 columns."""
 
 import subprocess

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The README tells the truth: its code runs, its tables are those of the committed run, its files
 exist.
 """

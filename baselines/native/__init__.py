@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The native lane: the libraries themselves, asked the same cases in one interleaved C++ loop.
 
 building.build() compiles what it finds; running.run(cells) times it. Bodies are convex (their

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Compiling the native lane: what was built, and what was not, with the remedy."""
 
 from __future__ import annotations

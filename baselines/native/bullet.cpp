@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Bullet in doubles, as pybullet is built: its GJK with EPA on hulls, as baselines/bullet.py asks
 // it; its other solver of distances; and its pair algorithm with the manifold that it keeps.
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>

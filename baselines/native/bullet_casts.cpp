@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Bullet's continuous convex casts: a C interface, which `baselines/bullet_casts.py` loads, and
 // engines of the native lane.
 #include "casts.hpp"

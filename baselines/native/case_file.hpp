@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The case file that baselines/native/casefile.py writes: little-endian, no padding.
 #pragma once
 #include <cstdio>

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The case file that `case_file.hpp` reads. Little-endian, no padding."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Bullet's three continuous convex casts on hulls, in doubles: two bodies in pieces, and the legs
 // of their motions.
 #pragma once

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Coal from its wheel: prepared ComputeCollision, as baselines/coal.py asks it.
 #include <coal/BVH/BVH_model.h>
 #include <coal/collision.h>

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // An engine in a mode, with the blocks of cases that it answers, built of them alone.
 #pragma once
 #include <algorithm>

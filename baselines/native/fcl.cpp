@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // FCL's overlap tests, of convex bodies by both of its solvers and of surfaces, as baselines/fcl.py
 // asks them. Transforms are made beforehand.
 #include "fcl_shapes.hpp"

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // FCL's continuous request on hulls: as it comes, and conservative advancement at its best, as
 // baselines/fcl.py asks it.
 #include <cstring>

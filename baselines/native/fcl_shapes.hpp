@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // FCL's shapes and transforms, of the lane's.
 #pragma once
 #include <fcl/fcl.h>

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The native lane: engines asked from C++, timed against each other by `lane` (main.cpp).
 //
 // Each engine is a plugin of its own (a shared library), opened apart from the others: they carry

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A plugin of the native lane as a library that Python calls: is it built, and in what version."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // lane CASES FOLDER MODES WARMUP ROUNDS PLUGIN... : time every engine on every case.
 //
 // MODES: names of lane::Mode with commas between them. In a round every contestant (an engine in a

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // MuJoCo from its wheel: mj_geomDistance on two geoms, as baselines/mujoco.py asks it.
 //
 // Where the geoms are is worked out beforehand, by mj_kinematics, as the transforms of the other

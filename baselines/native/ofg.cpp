@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Opposing Face Geometry from its own headers, in each instruction set of the machine; and how far
 // its steps take.
 #include "ofg/ofg.hpp"

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // parry in doubles, through the C interface of the crate beside this file.
 #include <cstddef>
 

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The protocol of timing: interleaved rounds, in an order that is drawn anew for each.
 #pragma once
 #include <numeric>

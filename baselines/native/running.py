@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Running the native lane: what every engine says of some queries, and how long it takes."""
 
 from __future__ import annotations

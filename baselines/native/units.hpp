@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The units that suit an engine, as baselines/units.py chooses them: powers of two, B's position as
 // the origin.
 #pragma once

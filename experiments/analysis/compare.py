@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Compare two runs: accuracy case by case, time as ratios paired by case."""
 
 from __future__ import annotations

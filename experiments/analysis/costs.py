@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Query time: nanoseconds per group, and paired ratios between methods."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Counts and rates relative to certified labels, never to another method."""
 
 from __future__ import annotations

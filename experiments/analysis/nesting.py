@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Find the hits that a test of surfaces cannot detect: one body lies inside the other, and their
 surfaces never meet.
 """

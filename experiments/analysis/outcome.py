@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Judge each answer by the certified label of its case, never by another method."""
 
 from __future__ import annotations

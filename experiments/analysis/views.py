@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Views of the outcomes: bands of the gap, the cases common to all methods, and ranks on them."""
 
 from __future__ import annotations

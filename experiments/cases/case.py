@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A case: a query and the scenario from which it was drawn."""
 
 from __future__ import annotations

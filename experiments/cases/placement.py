@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Placement of bodies with a given gap, feature or time of contact, exact wherever float32 permits.
 
 Gaps of 1e-16 are made as follows: both bodies have the contact point at their own frame's origin

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Real meshes: which of them a family draws and in which form, and how they move at one another."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A scenario: a family of cases along one axis of difficulty."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The bodies of the scenarios: generated ones of radius about 1, and real meshes from the installed
 pybullet_data.
 

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Check that each entry of a configuration is known, has valid values and is named once."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Read a run from outside as data: its Python files are not executed, and a fault in it is reported
 in one paragraph.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Run a configuration in one folder: scenarios -> certified cases -> observations -> times ->
 tables and figures.
 """

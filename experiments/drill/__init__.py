@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Fault drills: the command line runs under faults of the machine and with faulty methods, none of
 which may corrupt data.
 

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """`python -m experiments.drill`: run the command line under every fault and with every faulty
 method, and print the outcomes.
 

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """`ofg-bench run CONFIG --out FOLDER` as a user types it: started, watched, ended."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The faults of a machine, each a function that runs one command and injects the fault at a
 random time.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Find the processes of a run from outside: by a mark in their environment, and by their position
 below the runner.
 

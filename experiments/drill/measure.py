@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The undisturbed run, with which all others are compared."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The outcome of a try: equal, an honest stop, or failed."""
 
 from __future__ import annotations

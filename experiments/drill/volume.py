@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A disk that fills up or turns read-only: a small tmpfs if it may be mounted, else the nearest
 substitute, which is reported.
 """

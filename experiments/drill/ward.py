@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Runs with faulty methods: each faulty method must be named, and no other may be affected."""
 
 from __future__ import annotations

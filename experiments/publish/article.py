@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Draw the figures of ofg/ARTICLE.md: python -m experiments.publish.article FOLDER
 
 The coloured faces are computed for the case shown, by the core or by the article's steps; nothing

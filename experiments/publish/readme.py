@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Insert the tables of a run into a Markdown page between markers, so that no figure is typed."""
 
 from __future__ import annotations

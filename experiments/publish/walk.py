@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Runs the blocks of experiments/WALK.md and writes their output below them: python -m
 experiments.publish.walk
 """

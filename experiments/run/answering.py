@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """From certified cases to observations: every method answers every case, in worker processes
 that may crash.
 """

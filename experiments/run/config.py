@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The configuration of a run: read from a preset or a TOML file, and validated field by field."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The declarations of a run's own methods and scenarios, recorded so that the run can be read
 without running their files.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Decompose meshes into convex pieces, and certify the truth of the cases for the pieces."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The user's own files of a run: copied unchanged to RUN/own, so that changes are detected."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The certified truth of the convex pieces that some methods use in place of meshes."""
 
 from __future__ import annotations

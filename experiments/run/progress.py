@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Progress of a run and its remaining time: a bar per stage on a terminal, occasional lines
 elsewhere.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Report methods that answered nothing in a run, with the reason: empty table cells do not
 explain it.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Timing of methods: interleaved rounds on one pinned core, a floor for each method, the same cases
 for all.
 

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Messages of methods made fit for a table: short, one line, valid text, and never an error of
 their own.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Misses and operations by size, depth and k, which no run of the catalogue covers: python -m
 experiments.studies.sizes [--cases 400]
 

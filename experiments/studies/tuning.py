@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Choose the unit of length of every best-effort method: python -m experiments.studies.tuning
 
 Engines have absolute tolerances, so the unit is one of their settings, which the best effort

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Certified labels: `prove` proposes a label, `check` decides, `label` does both."""
 
 from __future__ import annotations

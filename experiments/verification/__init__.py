@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Verify that a run matches its configuration: files, rows, cases, labels and, on request,
 answers.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Answers repeated by the methods, in separate processes as in a run, and compared with the
 recorded ones.
 """

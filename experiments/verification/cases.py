@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Every case drawn again from its scenario, seed, level, index and attempt, and proved again."""
 
 from __future__ import annotations

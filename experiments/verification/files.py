@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The files of a run compared with the hashes in its manifest."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Meshes decomposed again, and the truth of the cases about their pieces proved again."""
 
 from __future__ import annotations

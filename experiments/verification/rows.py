@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The rows of a run compared with its configuration: none missing, duplicated or of another
 kind.
 """

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // What Python may give the core, checked where it enters.
 #pragma once
 #include <nanobind/nanobind.h>

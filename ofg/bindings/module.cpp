@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Python's way into the core: arrays in, arrays out, the interpreter lock released while asking.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/vector.h>

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Two boxes: do they touch now, and when do they meet if one flies and spins?
 #include <array>
 #include <cstdint>

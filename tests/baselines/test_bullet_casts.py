@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Bullet's convex casts: known facts of each, and what is said where they are not built."""
 
 import math

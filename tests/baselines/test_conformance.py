@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Every method of the registry passes the conformance suite, except for the known defects listed
 here.
 """

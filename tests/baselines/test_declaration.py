@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A method of somebody's own that declares too little is refused in a sentence, before anything is
 made.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Who answers about the pieces of a mesh says so, and does."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """FCL reads memory that nothing has written; set before each call, it leaves no trace of others."""
 
 import os

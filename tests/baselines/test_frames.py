@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The same question in another frame: what the bodies find of each other stays as it was."""
 
 from dataclasses import replace

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """What is known of the engines, measured anew: facts that the adapters rely on or that the tables
 must show.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The native lane: its case file, its protocol and its errors, with the engine at hand, OFG."""
 
 import fcntl

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The conformance suite itself: methods with one fault each must fail the property that is about
 it.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Units and origin: the question stays the same, and best-effort methods do not care about its
 scale and place.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The article's steps, plain: `ask` with accelerations gives their answers and their counts, and
 the readings differ as they must.
 """

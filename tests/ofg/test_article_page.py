@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """ARTICLE.md names only what there is: functions, options, repairs, figures, tables, scenarios."""
 
 import re

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Bodies: what they are made of, and the one-paragraph error for what cannot be one."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Body.convex keeps every vertex of tiny and of flat bodies: trimesh's hull merged vertices closer
 than 1e-8 into one.
 """

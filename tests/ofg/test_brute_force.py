@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """At k no less than the number of faces OFG is the test of all pairs: on random pairs, and on what
 hypothesis finds.
 """

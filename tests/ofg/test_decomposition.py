@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Decomposition: cached by content, the same for the same seed, and pieces that cover the body."""
 
 import multiprocessing

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Discrete OFG: invariances first, then what the article claims about its operations, then known
 pairs.
 """

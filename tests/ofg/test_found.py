@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """What an answer says that it found: the moment, and the faces where bodies cross."""
 
 import numpy as np

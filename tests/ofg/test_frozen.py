@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A query that was sent to another process is as read-only as the one it was made from."""
 
 import copy

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Every way into native code checks what it is given by itself: numbers, shapes and indices."""
 
 import itertools

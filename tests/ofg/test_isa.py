@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """SSE2, AVX2 and AVX-512 give the same answers to the last bit: verdicts, faces, times and
 counts.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Mesh files as users bring them: the kind and volume to find, or what must be said."""
 
 import bz2

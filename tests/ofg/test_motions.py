@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Two bodies that both move, each about a point of its own: what may not change an answer, and the
 bounds that sweeps rest on."""
 

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The headers as an engine programmer uses them: the example builds and runs, and no query
 allocates.
 """

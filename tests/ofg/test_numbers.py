@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Words, truth values and what is too large are no numbers, whatever numpy makes of them."""
 
 import numpy as np

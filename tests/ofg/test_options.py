@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Bad input is refused in words that help; the grammar of repairs."""
 
 import numpy as np

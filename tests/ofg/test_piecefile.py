@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The folder of kept pieces is a help and never a fault: altered files are made anew, an unwritable
 folder costs time only."""
 

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Polygons in files, and damaged files: nothing outside the solid, nothing lost unsaid."""
 
 import struct

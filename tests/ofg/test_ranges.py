@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Numbers within the supported range mean what they say; those outside are refused, by name."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Lengths times a power of two change no answer, not in its last bit, at any size supported."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A screen settles "no" by a plane between the whole bodies: it may change what an answer costs,
 and nothing else.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Selections by distance to the face itself, against all distances worked out here."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Closed surfaces: what balances, what cancels, what bounds nothing; each fault with its cause."""
 
 import warnings

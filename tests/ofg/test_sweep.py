@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Sweeps: known head-on times by both estimates, the flaws of the article's method, and that its
 repairs mend them.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Triangle against triangle: against exact rational arithmetic, and on the shapes that break such
 tests.
 """

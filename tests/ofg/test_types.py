@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Wrong types are refused in one sentence that says what to give."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Draw a table along an axis: rates or times by level, with a panel per engine and OFG in each for
 comparison.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The accuracy-speed figure: wrong answers versus net time, with a curve per method and the Pareto
 front.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The tables of a run: first accuracy, then time.
 
 Each table has a frame of numbers (CSV) and a frame of text (terminal, Markdown, LaTeX).

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The tables of accuracy, in two views: all cases that a method answered, and common cases."""
 
 from __future__ import annotations

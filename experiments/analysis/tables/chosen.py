@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Tables defined by a configuration: a row per method, a column per level, scenario or tag."""
 
 from __future__ import annotations

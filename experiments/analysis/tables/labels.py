@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Tables of the cases: their certified labels, and the answers where bodies only touch."""
 
 from __future__ import annotations

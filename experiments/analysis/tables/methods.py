@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The table of the methods of a run, as each method declares them."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Tables of a stepping run: how often a body tunnelled through its obstacle."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Tables of sweeps: tunnelling by speed, and the error of the time of impact."""
 
 from __future__ import annotations

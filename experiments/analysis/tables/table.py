@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """One table: its numbers, its text, and the files in which it is stored."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The scenario families: every file of this folder that does not start with an underscore
 defines one as SCENARIO.
 """

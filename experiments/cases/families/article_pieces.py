@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """After the article's scheme for concave bodies: two collections whose nearest pieces are not
 the ones that collide.
 """

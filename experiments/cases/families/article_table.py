@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The article's second example: a cube floats above a table and rotates by 45 degrees within one
 step.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The article's first example: a face passes through a wall within one step, or past its rim."""
 
 import numpy as np

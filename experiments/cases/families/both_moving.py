@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Two bodies translate and rotate, each about its centre or another of its points, and collide
 or stop short of contact.
 """

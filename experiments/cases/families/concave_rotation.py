@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A concave body rotates about something inside its hollow: a square frame about a square peg,
 or a hook about a post.
 """

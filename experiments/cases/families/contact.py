@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A body moves onto a feature of another, at an angle to the contact normal, or stops just short
 of it.
 """

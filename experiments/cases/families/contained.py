@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A small body wholly inside a large one (surfaces apart, solids overlap), or just outside it."""
 
 import numpy as np

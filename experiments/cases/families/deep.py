@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A body and its own copy, or another body, with nearly or exactly the same centre."""
 
 from experiments.cases.placement import any_direction, any_rotation, in_world

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A body moves onto a feature of another and arrives just before the end of the step, or would
 arrive just after it.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Two regular bodies, or two irregular ones, with a given number of faces, slightly apart or
 slightly penetrating.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Two bodies at the same place far from the world's origin, with a gap that is part of their
 shape.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Two convex bodies with one feature each a prescribed distance apart, or penetrating by that
 distance.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A rod makes whole turns about its own centre beside a body: the step ends in the pose in which
 it began.
 """

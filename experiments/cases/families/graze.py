@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A body slides past another with a prescribed clearance, or penetrates it by that depth, on a
 path parallel to the contact plane.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Two L-shaped bodies, each with its arm in the corner of the other; the end of one arm is near
 the other's side or inside it.
 """

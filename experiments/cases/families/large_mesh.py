@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Meshes of real objects with thousands of faces; the extreme vertex of one is near a point of
 the other's surface.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Two tori linked like a chain, the tube of one near the inner side of the other, or penetrating
 it.
 """

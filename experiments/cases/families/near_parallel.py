@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A face on another with a minute tilt, pressed in or lifted by less than the tilt's own height."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A body starts a tiny gap away from another and moves further into it, or away."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Two faces that are parallel, or minutely tilted, with a gap between them or penetrating."""
 
 from dataclasses import replace

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Random bodies in random poses at a given distance of their centres: the control, which
 resembles most published comparisons.
 """

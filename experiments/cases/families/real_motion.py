@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Meshes of real objects that fly at one another while rotating: onto a point of the surface,
 just short of it, or past it.
 """

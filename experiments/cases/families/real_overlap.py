@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Meshes of real objects, convex and concave; the extreme vertex of one is near a point of the
 other's surface.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Meshes of real objects that fly from outside at a point of one another's surface: right
 through, just short of it, or past it.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A body that translates and rotates about its own centre hits a surface, or stops just short of
 it.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The same contact in every unit of length: both bodies and the gap, scaled by one factor."""
 
 from experiments.cases.placement import seat

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A body flies through a thin wall while it rotates, or past the wall's rim; both ends of the
 step are clear.
 """

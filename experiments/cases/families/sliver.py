@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Needles and plates that nearly touch or slightly penetrate: bodies of extreme aspect ratio, a
 gap of at most half their thickness.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The end of a rotating rod passes a flat face on a circle: above the face, or into it, by a
 fraction of the chord's error.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A rod rotates about its own centre and its end hits a body at its side, or passes it; both
 ends of the step are clear.
 """

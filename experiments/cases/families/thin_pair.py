@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A thin body flies broadside through a thin wall within one step, or past its rim; the time of
 crossing is random, and both ends are clear.
 """

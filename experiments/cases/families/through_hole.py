@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A body flies through the hole of a frame, clear of its inner side or scraping it; or the frame
 flies over the body.
 """

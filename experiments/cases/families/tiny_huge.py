@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A tiny body at a feature of a huge one, at a gap or a depth of a tenth of the tiny body's
 size.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """List the scenarios, methods, experiments and presets."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """ofg-bench native: build the native benchmark with the libraries found, and run it."""
 
 from __future__ import annotations

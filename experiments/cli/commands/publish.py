@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The report of a run, the page of one case, and the findings of all runs."""
 
 from __future__ import annotations

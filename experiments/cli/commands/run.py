@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Run a configuration, resume a run, reproduce all experiments."""
 
 from __future__ import annotations

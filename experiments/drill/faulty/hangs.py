@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Ways in which a method may hang. If only the wall deadline ends it, it hangs at one case only."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Things that a method may leave behind: processes, threads, output, files."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The faulty methods as a method file: ofg-bench run mine.toml --methods
 experiments/drill/faulty/methods.py
 """

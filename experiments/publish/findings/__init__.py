@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """results/README.md: the findings of the runs on each claim of the article and on each engine,
 computed from the rows of the runs.
 

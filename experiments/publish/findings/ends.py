@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Hits at the start or end of a step: OFG is run on them here, as the rows of a run do not record
 which faces met.
 

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A section per engine: misses and false alarms of its methods over all families, and a line per
 experiment.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Objections that the author of an engine may raise, each with figures before and after, computed
 from the rows of the runs.
 """

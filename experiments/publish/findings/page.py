@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The page: a table of the claims, a paragraph on each claim, the engines, and the runs."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The runs of a folder, and the numbers computed from their rows, always by metrics.py."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Draws one case of each family: python -m experiments.publish.gallery.draw
 experiments/cases/families/figures
 

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Write the README of the scenario families from the scenarios: python -m
 experiments.publish.gallery.page
 """

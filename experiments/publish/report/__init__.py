@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """report.html: one self-contained page for a run, and the same page for a single case."""
 
 from __future__ import annotations

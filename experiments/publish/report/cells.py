@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Links from the cells of a table to the cases that they count.
 
 A link is a set of conditions; `select` here and `casesOf` in page/data.js evaluate it alike.

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Extract the parts of a certificate that can be drawn: its planes, each with its elements and
 times, and its common point.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Show one case, from a run or from a file, on its own page.
 
 The file is JSON: {"case": the row of cases.parquet, "bodies": the two rows of bodies.parquet (one

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Which cases a page shows for each method: its misses, false alarms and late times."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The terms of experiments/GLOSSARY.md, embedded in the report: the page loads no other file."""
 
 from __future__ import annotations

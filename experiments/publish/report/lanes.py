@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The query times of a run for its page: from Python, and from the native benchmark."""
 
 from __future__ import annotations

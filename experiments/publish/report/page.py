@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Write one self-contained HTML file from the template, styles, scripts, libraries and data."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The data of the page: the rows of a run, column by column, and the bodies of the cases that it
 can draw, in bytes.
 """

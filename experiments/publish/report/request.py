@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The request of `ofg-bench explain`: a case of a run or a file, and the methods to run on it."""
 
 from __future__ import annotations

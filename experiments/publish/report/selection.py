@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """OFG's selections, recomputed in numpy from the published steps for display. The answer itself
 always comes from the core.
 

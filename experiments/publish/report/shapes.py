@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Bodies, certificates and OFG's selections of the cases that a page can draw, in bytes."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Read files that may come from somebody else: completely, as text or JSON, or refuse them with
 a message.
 """

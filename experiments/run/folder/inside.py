@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Paths inside a folder with untrusted content: names are checked, and links are not followed."""
 
 from __future__ import annotations

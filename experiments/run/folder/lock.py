@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The lock of a run's folder: one runner at a time, released when its holder dies.
 
 `fcntl.flock` of the standard library: the kernel releases it with the process, however that ends,

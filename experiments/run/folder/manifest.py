@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The manifest of a run: everything about its origin that is needed to question a figure."""
 
 from __future__ import annotations

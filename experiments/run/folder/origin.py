@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The origin of a result besides its configuration: the code, the libraries, the user's own files.
 
 An unfinished run that resumes after an update must not mix answers from two versions of the code;

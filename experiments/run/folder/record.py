@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Read the files of a run: every column is present, of its type and in its range, or the file is
 refused.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Conversion of cases, bodies and truths to rows of a table, readable without this code, and
 back.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A shard: a finished part of an unfinished run, named by what determines it and by its bytes."""
 
 from __future__ import annotations

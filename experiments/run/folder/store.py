@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The run folder: its content, written so that a kill at any moment loses at most the part in
 progress.
 """

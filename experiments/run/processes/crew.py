@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The runner's side of its workers: it starts them, receives their messages, enforces their
 limits and cleans up after them.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The process from which workers are forked: with the imports done, a worker starts in
 milliseconds.
 

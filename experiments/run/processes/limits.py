@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Two limits on a worker: processor time, and a wall-clock deadline of about ten times that.
 
 The worker enforces the first itself with a kernel timer; the runner enforces both from outside,

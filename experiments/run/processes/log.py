@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The output of workers in one small file: the beginning of each process's output, up to a total
 limit.
 """

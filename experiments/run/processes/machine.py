@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Faults of the machine: they end a run and never become data."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Work in processes that may die: a crash or a hang costs only the item that caused it, and a
 fault of the machine none.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Linux facilities that leave no process behind: signals at a parent's death, and adoption of
 orphans.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The work of one worker process: it opens a task, processes its items in turn, and sends each
 result at once.
 """

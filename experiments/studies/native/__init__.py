@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Everything timed in C++: OFG and the engines as libraries, on the same certified cases.
 
     ofg-bench native [RUN]

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A cell of the native study: queries of one kind that are asked together."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Cells of a run: its certified cases, put into the bins in which the run times its methods."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Which builds are compared: like with like, by the instruction set they are compiled for."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Both lanes side by side: a method asked from Python, and the same library asked in C++.
 
 The Python lane's net time is its gross time less the method's floor (its call on two tetrahedra far

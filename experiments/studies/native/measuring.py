@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """What a cell gives: a row per contestant and block of its time, and of what it answered."""
 
 from __future__ import annotations

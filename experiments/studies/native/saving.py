@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The files of a native study: rows.parquet, native.md, made.json."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Every cell of a native study, measured, compared, printed and written."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """From rows of blocks and answers to a row per cell, class and contestant."""
 
 from __future__ import annotations

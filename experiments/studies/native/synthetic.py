@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Cells by size: pairs of hulls, cubes and icospheres, placed at gaps and depths, and flown."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Methods of the Python lane and contestants of the native one that are the same configuration."""
 
 from __future__ import annotations

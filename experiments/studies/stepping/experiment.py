@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The stepping track as an experiment: a run folder with stepping.parquet in place of cases and
 observations.
 """

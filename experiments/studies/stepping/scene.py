@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The scenes: a mover that translates or rotates towards an obstacle, and when it has passed."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Run scenes in worlds at random start phases, and count the bodies that pass their obstacle."""
 
 from __future__ import annotations

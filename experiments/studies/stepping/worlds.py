@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """One scene in one engine: created, stepped and observed.
 
 A world has `dt` (the engine's own default), `step()`, `progress()` and `rate()` (progress per

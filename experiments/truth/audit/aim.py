@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Measure how well the families achieve their aim, by the truth: python -m
 experiments.truth.audit.aim [-n CASES] [FAMILY ...]
 

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """`python -m experiments.truth.audit.attack`: test the checker with thousands of corrupted
 certificates.
 

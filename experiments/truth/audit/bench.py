@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """`python -m experiments.truth.audit.bench`: certified labels per second on the mix of a preset
 (default: standard, else quick).
 

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // An independent judge in CGAL's exact kernel: reads pairs of solids with rational coordinates,
 // says whether they meet (closed). Built by `python -m experiments.truth.audit.crosscheck`; no part
 // of the package. Input: cases until the end of the file, each

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """`python -m experiments.truth.audit.crosscheck`: compare the labels with two judges that share
 nothing with the prover or the checker.
 

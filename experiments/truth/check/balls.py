@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Exact and ball arithmetic of three-vectors for the checker: rationals (fmpq) without rotation,
 balls (arb) with it.
 """

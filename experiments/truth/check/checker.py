@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The independent checker. It believes a label by its certificate alone (see README.md beside this
 folder).
 

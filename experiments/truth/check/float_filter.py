@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The checker's filter in doubles: settles an obligation only by more than its rounding error, in
 batches; the rest is left to the balls.
 

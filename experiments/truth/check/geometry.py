@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Data shared by the checker's two arithmetics: a query's poses and motion as doubles and as
 exact numbers; bodies as elements.
 """

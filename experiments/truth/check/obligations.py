@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """What a label owes: the obligations that a certificate must meet, field by field.
 
 README.md beside this folder describes the certificate. Nothing is proved here but rational

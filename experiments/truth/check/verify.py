@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Verify labels with the checker alone, as a third party does with stored certificates."""
 
 from __future__ import annotations

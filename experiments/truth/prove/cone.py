@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A separating plane between two convex point sets, or the proof that there is none, in integers.
 
 A normal n separates A from B if n.c >= 0 for every c = b - a. The remaining candidate normals form

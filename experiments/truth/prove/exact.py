@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The exact time of impact of two convex bodies in translation: the linear program min t, t d in B
 - A, solved in rationals.
 

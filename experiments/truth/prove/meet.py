@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A common point of two coplanar point sets, in rationals."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Propose a Truth with its certificate. The search is native; its result counts only after the
 checker has accepted it.
 """

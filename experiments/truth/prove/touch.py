@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Planes and common points of touching convex pieces, in rationals, which no rounded search can
 propose.
 

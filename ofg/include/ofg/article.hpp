@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The article, step by step, as its author wrote it: plain loops, without bounds, rejections or
 // repairs. Kara, "Opposing Face Geometry", GameDev.net 2004. ARTICLE.md names the function here for
 // each sentence of the article. `ofg::overlap` and `ofg::sweep` give the same answers with

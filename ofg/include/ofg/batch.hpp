@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Many poses of one pair of bodies in one call.
 #pragma once
 #include "ofg.hpp"

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The reference that OFG must equal if k is at least the number of faces: every face against every
 // face and, in a sweep, every vertex's virtual edge against every face. Plain loops without
 // selection; only bounding boxes of faces reject pairs.

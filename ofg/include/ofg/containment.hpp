@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Point-in-body tests. Disjoint surfaces still overlap as solids if one lies inside the other.
 #pragma once
 #include "mesh.hpp"

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Contacts of two moving meshes on chords: vertices against faces, edges against edges; and their
 // times on the true paths.
 #pragma once

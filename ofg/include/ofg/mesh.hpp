@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Data of a body computed before any query: vertices and face centres in structure-of-arrays.
 #pragma once
 #include <algorithm>

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Poses, motions over one step, and the motion of one body relative to the other. Always in double,
 // whatever the meshes' type: positions far from the world's origin cancel in the relative pose.
 #pragma once

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Opposing Face Geometry for bodies: convex, concave in pieces, or undivided meshes.
 #pragma once
 #include <algorithm>

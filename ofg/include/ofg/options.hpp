@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The options of a query. The defaults are Opposing Face Geometry as in Kara's article
 // (GameDev.net, 2004).
 #pragma once

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Discrete OFG: whether two meshes meet at one pair of poses. Steps are numbered as in the article.
 #pragma once
 #include "containment.hpp"

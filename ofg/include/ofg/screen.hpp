@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Whether two bodies are so surely apart that no test of their faces can hit. In single precision
 // with a margin for its rounding: "apart" means a plane between the convex hulls of all their
 // vertices. Not a step of the article.

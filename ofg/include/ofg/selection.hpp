@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Steps 2 to 5 and 7: the k faces nearest to a point, nearest first, and their bounding sphere.
 #pragma once
 #include <algorithm>

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Searches for a separating plane between two sets of points. A plane found is a proof; none found
 // proves nothing.
 #pragma once

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Bounds on the deviation of the true paths of vertices from their chords, relative to the other
 // body.
 #pragma once

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The support function of a set of points by table: for every cell of a cube map of directions, the
 // points that are extreme along some direction of the cell. The list is complete, so the best point
 // of a cell's list is the best of all.

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // OFG over one step: whether two moving meshes meet, and when. Translational and rotational sweep
 // are one algorithm, on the motion of A relative to B; its virtual edges are exact for translations
 // and chords of the true paths for rotations.

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Tests between triangles, segments and points.
 // Touching counts as meeting. Every test takes `scale`, a bound on the absolute value of the
 // coordinates, and settles nothing by less than a few units of rounding of it: faces closer than

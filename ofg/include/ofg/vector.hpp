@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Three-component vectors and 3 x 3 matrices, limited to the needs of the algorithm.
 #pragma once
 #include <bit>

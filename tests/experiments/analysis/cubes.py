@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Cases in memory for tests that count: poses and bodies of two cubes far apart, so that nobody is
 contained.
 """

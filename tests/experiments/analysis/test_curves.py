@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The figure of a table shows what the table says, every curve is named, and no two names touch."""
 
 from itertools import combinations

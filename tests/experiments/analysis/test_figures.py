@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Engines are told apart: no two share a colour, no two curves a colour and a marker."""
 
 from baselines import registry

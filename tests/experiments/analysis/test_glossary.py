@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """GLOSSARY.md defines every column head that a run prints, and each link to it leads somewhere."""
 
 import json

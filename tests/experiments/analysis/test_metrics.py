@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The counts of a table, worked out by hand on a dozen observations."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Which bodies are inside another: containment is proved, or the case counts as any other."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Tables of an experiment: counts worked out by hand, columns in order, LaTeX that closes what it
 opens.
 """

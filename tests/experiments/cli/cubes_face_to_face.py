@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Two unit cubes face to face, about 1e-8 deep (float32 snapping blurs it), turned together at
 random: the pose at which FCL's signed distance aborts the process.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Every experiment of the catalogue can be run, and the committed runs are what the code makes of
 their rows.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """What a configuration names is looked at first: unknown, out of range, or named twice."""
 
 import pytest

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """EXTENDING.md is true: a newcomer who types what it says gets there, by files and by a package."""
 
 import os

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The main job on a few cases: the same to the bit whatever the workers, the seed's run again, or
 an interruption.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A runner in miniature for the drill's tests: it works in one child process, and goes wrong in
 the way it is told to.
 

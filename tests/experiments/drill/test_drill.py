@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A drill that cannot fail is worthless: each way of going wrong has a mutant, and the drill must
 tell.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Who is sick must be named, and nobody else may have caught anything."""
 
 import pandas as pd

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Runs in memory: methods and families of the catalogue, answered as a test tells them."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The findings page: it is what the committed runs make, and what is missing is said."""
 
 import re

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Tables in a Markdown page are taken from the run that the page is filled from, or from one that
 the marker names.
 """

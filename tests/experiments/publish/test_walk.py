@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """WALK.md tells the truth: its blocks print what it shows, its functions are where it says."""
 
 import re

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Methods on pieces are judged by the pieces; the pieces' own error has a row; a forged truth is
 refused.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Faults of the machine, with real processes: none of them becomes a result, and nothing is left
 behind.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Faults of the machine and of the reader: one paragraph, and the same command goes on
 afterwards, to the byte."""
 

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """What a method that dies while it is timed takes with it: its own times, and no other's."""
 
 import pandas as pd

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The native study: its cells, what stands in which class, and the quotients."""
 
 from pathlib import Path

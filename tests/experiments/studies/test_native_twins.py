@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Twins answer alike: the native lane, asked the cases of the run quick, beside the run's rows.
 
 Of the engines that are built here (ofg-bench native --build); OFG_NATIVE=required demands all.

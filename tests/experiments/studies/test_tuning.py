@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """One rule chooses the unit of every best-effort method, on cases that no run counts."""
 
 import pytest

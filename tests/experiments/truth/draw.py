@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Random cases and queries for the tests of the truth."""
 
 from __future__ import annotations

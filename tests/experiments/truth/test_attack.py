@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Corrupted certificates: each mutation makes a claim false or unsupported, and the checker must
 refuse it.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Hard corners: labelled rightly, or uncertain with a reason; never wrong, never hanging."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The depth of an overlap is the least translation that ends it, so no more than the one the
 scenario was built with.
 

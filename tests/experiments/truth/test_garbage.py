@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A certificate that cannot be read is refused by itself, and what is beside it is checked."""
 
 from __future__ import annotations

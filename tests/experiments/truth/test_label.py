@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Labels: proved, checked, and unchanged by what must not change them."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Exact touching: clear where that is proved, tagged where a common point is shown, and never
 believed of a mesh.
 """

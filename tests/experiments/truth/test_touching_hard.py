@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Bodies that touch and that no rounded search parts: thin, unlike in size, far away."""
 
 from __future__ import annotations

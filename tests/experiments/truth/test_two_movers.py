@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Both bodies move and turn: swapping changes nothing, instants agree, and the bound on the second
 derivative is a bound.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Verification by the checker alone, and what the checker may import."""
 
 from __future__ import annotations

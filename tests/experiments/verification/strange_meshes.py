@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Malformed meshes, mutated one by one, as a stranger may send them."""
 
 import itertools

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Says commands one after another in one process and writes down what came of each, line by line:
 what is missing at the end crashed.
 

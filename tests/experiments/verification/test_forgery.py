@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A forger who recomputes every hash: each forgery is found, or stands in SILENT."""
 
 from __future__ import annotations

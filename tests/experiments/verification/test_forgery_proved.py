@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A forger who also proves again what he changed: the package's cases are drawn anew, own ones with
 --trust.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """A stranger's files are data: nothing crashes on them, runs them, or writes outside their
 folder.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """200 run folders with one cell altered by chance and every hash recomputed."""
 
 from __future__ import annotations

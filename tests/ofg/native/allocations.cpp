@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Counts what a query allocates once its workspace has been reserved: nothing. Prints the number.
 #include <cstdio>
 #include <cstdlib>

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Garbage into the two extensions, built with the address and undefined-behaviour sanitizers: `make
 fuzz-boundary`.
 

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Random queries under AddressSanitizer and UndefinedBehaviorSanitizer, on shapes with everything
 // wrong that a mesh can have, each answer checked against what must hold. Usage: fuzz [queries]
 // [seconds] [seed]. Prints the query and stops at the first fault.

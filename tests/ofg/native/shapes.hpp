@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Random closed meshes for the native tests, from round ones to such as no modeller would own up
 // to.
 #pragma once

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 //! parry in doubles behind a C interface, for the native lane.
 use parry3d_f64::math::{Pose, Rotation, Vector};
 use parry3d_f64::query::{
@@ -94,8 +98,8 @@ pub unsafe extern "C" fn parry_cast(
     }
 }
 
-/// As `parry_cast`, for a body that also turns about its own origin by `turn` (axis times angle, in the
-/// frame of the world).
+/// As `parry_cast`, for a body that also turns about its own origin by `turn` (axis times angle, in
+/// the frame of the world).
 #[no_mangle]
 pub unsafe extern "C" fn parry_cast_nonlinear(
     a: *const Box<dyn Shape>,

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The claims in the order of the page: those of the article, then those that it does not make."""
 
 from . import basic, concave, moving, project

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Claims on the basic algorithm: its cost, the choice of k, and suitable bodies."""
 
 from __future__ import annotations

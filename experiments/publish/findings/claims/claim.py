@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Claims and findings.
 
 A claim wraps a function of the runs that returns a verdict, the number on which it is based, and

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Claims on the algorithm for concave bodies."""
 
 from __future__ import annotations

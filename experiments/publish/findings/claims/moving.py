@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Claims on the algorithms for translating and rotating bodies."""
 
 from __future__ import annotations

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Claims of the project that are not in the article: speed, robustness and repairs."""
 
 from __future__ import annotations

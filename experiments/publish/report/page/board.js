@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The leaderboard: every method that answers any of the filtered cases.
 function drawBoard() {
   const rows = [],

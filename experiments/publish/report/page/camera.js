@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Where the viewer stands. `changed` is called when the user moves it; a still camera has no user.
 class Camera {
   constructor(canvas, still, changed) {

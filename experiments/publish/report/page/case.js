@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // One case: its bodies in motion, its certificate, all answers and OFG's selections.
 let openView = null;
 

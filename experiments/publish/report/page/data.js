@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 "use strict";
 // The decoded run: D.cases contains columns, D.outcome one letter per method and case. Every count
 // on the page is a count of these letters.

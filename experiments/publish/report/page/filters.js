@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The filter of the cases for the whole page; every view that shows counts registers as a listener.
 const F = {
   question: "",

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The gallery: the misses, false alarms and late times of one method, or the cases of any cell of
 // the page.
 const PAGE = 24;

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Rotations and places in doubles: where a body is at a time, and the plane of a certificate.
 // Nothing is drawn here.
 const rotation = ([w, x, y, z]) => {

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The glossary: D.terms holds its sections. Backticks mark code.
 function glossary() {
   const words = (text) => text.split("`").map((part, k) => (k % 2 ? el("code", {}, part) : part));

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Lines of a width in pixels, whose materials must know the size of the canvas.
 class Lines {
   constructor() {

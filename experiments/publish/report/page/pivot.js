@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Counts by method and one property of the cases, with intervals; each cell links to its cases.
 let across = "scenario",
   what = "wrong";

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Accuracy versus speed: a curve per method over its parameter, with a colour per engine and a
 // symbol per method.
 const MEASURES = {

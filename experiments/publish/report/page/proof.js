@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The part of a certificate that applies to a time: a separating plane or a common point.
 
 function proofAt(g, t) {

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The configuration of the run and the machine on which it ran.
 function drawRun() {
   const r = D.run,

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Both bodies of one case in 3D, at any time of the step. Positions are taken in doubles about the
 // middle of the scene, and only then drawn.
 const MANY = 6000; // faces from which the edges of a body are not drawn

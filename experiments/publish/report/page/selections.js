@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Draws OFG's selections, the faces that met and the virtual edges on the bodies.
 
 // The edges of triangles, as pairs of points. positions: nine numbers for each triangle.

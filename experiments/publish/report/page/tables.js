@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The tables of the run as saved in tables/; each cell links to its cases.
 const RATES = new Set([
   "judged",

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Page elements and formatted numbers.
 function el(tag, attributes = {}, ...children) {
   const node = document.createElement(tag);

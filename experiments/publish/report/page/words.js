@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The text about one case: its properties, its certificate, OFG's selections and all answers.
 
 // How OFG found its hit: answer.found.

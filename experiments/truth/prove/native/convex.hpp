@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Proposals for one convex pair: separating planes over time segments, and points inside both
 // bodies.
 #pragma once

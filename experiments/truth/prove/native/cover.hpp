@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Trees of planes that keep all elements of two solids apart, at one moment or over an interval,
 // and what they are stuck on.
 #pragma once

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Double-double arithmetic (106 bits), for proposals that double cannot make. Dekker (1971), Knuth;
 // sin/cos by Taylor series.
 #pragma once

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Penetration depth of two overlapping convex point sets: an expanding polytope (van den Bergen
 // 2001). An estimate from above.
 #pragma once

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Distance and overlap of two convex point sets by their support functions (Gilbert, Johnson,
 // Keerthi 1988).
 #pragma once

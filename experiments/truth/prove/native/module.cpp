@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // experiments.truth.prove._native: the prover's proposals. Nothing here is believed; the checker
 // decides.
 #include <nanobind/nanobind.h>

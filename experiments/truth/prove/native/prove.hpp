@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // What is proposed for two solids: at one instant, and over the step.
 #pragma once
 #include <cstdio>

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // A body as the prover sees it: convex elements (one hull, pieces, or triangles) in a tree of
 // nearby groups; winding numbers.
 #pragma once

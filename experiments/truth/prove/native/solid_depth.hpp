@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // How deep two solids are in each other: estimates.
 #pragma once
 #include "cover.hpp"

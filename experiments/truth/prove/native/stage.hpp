@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Two solids in one scene, as the prover's searches share them: their points posed in double and in
 // double-double, groups of elements and how near they may be, and the effort spent.
 #pragma once

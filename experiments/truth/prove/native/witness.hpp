@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Points inside both solids at one moment: where two elements cross, and below their surfaces.
 #pragma once
 #include "stage.hpp"

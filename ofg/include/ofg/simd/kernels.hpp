@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The inner loops, compiled for each instruction set, and the choice between them at run time.
 #pragma once
 #include <cstdlib>

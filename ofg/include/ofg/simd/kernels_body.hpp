@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Compiled once per instruction set: included by kernels.hpp inside a region with that target, with
 // OFG_ISA as the namespace and OFG_BYTES as the width of its registers. No standard library here:
 // the linker could keep an inline function of it compiled for AVX-512 as the copy for all.

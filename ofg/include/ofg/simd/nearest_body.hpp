@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Part of kernels_body.hpp, compiled once per instruction set under the same rules: the nearest
 // faces to a point.
 // Squared distances from a point to n points, n a multiple of block_faces.

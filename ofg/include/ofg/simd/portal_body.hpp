@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Part of kernels_body.hpp, compiled once per instruction set under the same rules: a portal
 // towards the origin through the difference of two point sets, for as many pairs at once as a
 // register has lanes (Snethen, XenoCollide, in Game Programming Gems 7, 2008). Only the support

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Part of kernels_body.hpp, compiled once per instruction set under the same rules: separation of
 // triangles by planes, edges and segments.
 // Lambdas would not inherit the target of the region: plain functions do.

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """What the truth says of the families: they hit what they aim at, sweeps start clear, and both
 answers occur.
 """

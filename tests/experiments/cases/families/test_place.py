@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The constructions that gaps rest on are exact: judged in rationals."""
 
 from fractions import Fraction

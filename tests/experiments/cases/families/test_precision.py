@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """What is drawn is the case; a scenario may declare that it is rounded to float32 first, bodies
 included.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """What every family must keep: the same case for the same arguments, float32 inputs, bodies that
 are what they say.
 """

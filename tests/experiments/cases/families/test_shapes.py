@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Bodies: float32 to the bit, closed, and the two forms of a concave one the same solid."""
 
 import numpy as np

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """One small run with every kind of question, body and outcome, for all tests of the report. Some of
 its clear cases are said to touch, though they do not: no scenario aims at that.
 """

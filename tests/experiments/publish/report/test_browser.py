@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The report in a real browser without a screen: it opens, counts as the run does, filters, leads
 to cases, and plays them, without an error.
 """

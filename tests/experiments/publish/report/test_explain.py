@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """ofg-bench explain: from a run, from its file, from a file written by hand; errors name the
 remedy.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """What a reader counts in outcomes.parquet is what the tables print, to the digit."""
 
 import pandas as pd

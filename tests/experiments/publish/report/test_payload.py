@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """What the page is given equals what the run holds; every linked cell of a table leads to exactly
 the cases it counts; nothing points outside.
 """

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The selections that the page shows are those of the core: asked about them alone, all against
 all, the core gives OFG's own answer.
 """

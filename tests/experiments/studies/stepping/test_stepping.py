@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """The stepping track: its scenes are fair, its count can go both ways, and known remedies show."""
 
 import numpy as np
