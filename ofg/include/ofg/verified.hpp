@@ -30,7 +30,7 @@ namespace detail {
 // answer.
 inline void opposed(const Hull& a, const Hull& b, const Posed& at, const Parts& parts,
                     Counts& counts, Proof& proof) {
-  const double unit = 1 / (a.unit + b.unit), share = unit / at.unit;
+  const double unit = 1 / (a.radius + b.radius), share = unit / at.unit;
   OpposedPair pair;
   const Mat3<double> back = at.r.transposed();
   pair.patch_a = a.opposing.patch(back * -at.between);
@@ -39,7 +39,7 @@ inline void opposed(const Hull& a, const Hull& b, const Posed& at, const Parts& 
   pair.complete = a.opposing.complete() && b.opposing.complete();
   pair.whole = !parts.selection;
   const Vec3<double> between = at.between * share, inside = beside(a, b, 0) * unit;
-  const double scale = a.unit * unit;
+  const double scale = a.radius * unit;
   for (int i = 0; i < 3; ++i) {
     const Vec3<double>& row = at.r.row[i];
     pair.r[3 * i] = float(row.x * scale), pair.r[3 * i + 1] = float(row.y * scale),
@@ -49,7 +49,7 @@ inline void opposed(const Hull& a, const Hull& b, const Posed& at, const Parts& 
     to[0] = float(v.x), to[1] = float(v.y), to[2] = float(v.z);
   };
   put(between, pair.between), put(inside, pair.inside);
-  pair.size_b = float(b.unit * unit);
+  pair.size_b = float(b.radius * unit);
   const double way = std::abs(between.x) + std::abs(between.y) + std::abs(between.z);
   const double gap = ofg::detail::screen_rounding * (1 + way) + (at.slack + at.away) * share;
   pair.gap = float(gap * (1 + 1e-6));
@@ -61,11 +61,11 @@ inline void opposed(const Hull& a, const Hull& b, const Posed& at, const Parts& 
   proof.verdict = said == 1 ? Verdict::apart : Verdict::meeting;
   proof.axis = {out.axis[0], out.axis[1], out.axis[2]};
   if (said == 1) return;
-  proof.inside = beside(a, b, 0), proof.off = 0x1p-22 * (a.unit + b.unit);
+  proof.inside = beside(a, b, 0), proof.off = 0x1p-22 * (a.radius + b.radius);
   for (int i = 0; i < 3; ++i) {
     const float* c = out.corners[i];
-    proof.a[i] = Vec3<double>(c[0], c[1], c[2]) * a.unit;
-    proof.b[i] = Vec3<double>(c[3], c[4], c[5]) * b.unit;
+    proof.a[i] = Vec3<double>(c[0], c[1], c[2]) * a.radius;
+    proof.b[i] = Vec3<double>(c[3], c[4], c[5]) * b.radius;
   }
 }
 

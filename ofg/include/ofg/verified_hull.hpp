@@ -23,36 +23,42 @@ struct Hull {
   double off_centre = 0;               // bound on the centre's distance from the hull
   std::array<int, 4> corners{};        // of a tetrahedron that is exactly not flat
   bool flat = true;                    // there is none: the interior is empty
-  SupportMap supports;                 // relative to the centre in units of `unit`
-  double unit = 1;
-  OpposingTable opposing;    // likewise
-  std::uint64_t number = 0;  // no other hull of this process has it
+  SupportMap supports;                 // relative to the centre in units of the radius
+  OpposingTable opposing;              // likewise
+  std::uint64_t number = 0;            // no other hull of this process has it
 
   Hull() = default;
 
-  template <class T>
-  explicit Hull(const Mesh<T>& mesh) : centre(mesh.centre) {
-    const int n = mesh.vertices.size();
-    for (int i = 0; i < n; ++i) vertices.push_back(Vec3<double>(mesh.vertices[std::size_t(i)]));
+  // faces: triangles of indices into the vertices, wound outward.
+  Hull(std::vector<Vec3<double>> given, const std::vector<std::array<int, 3>>& faces)
+      : vertices(std::move(given)) {
+    const int n = size();
+    Points<double> all;
     double extent = 0;
     for (const auto& v : vertices) {
-      const Vec3<double> x = v - centre;
-      cloud.push(x);
-      radius = std::fmax(radius, length(x)), extent = std::fmax(extent, length(v));
+      all.push(v), centre = centre + v * (1.0 / n);
+      extent = std::fmax(extent, length(v));
     }
-    // A length has a relative error of 4 units, and each x of 1.
+    for (const auto& v : vertices) {
+      cloud.push(v - centre);
+      radius = std::fmax(radius, length(v - centre));
+    }
+    // A length has a relative error of 4 units, and each difference of 1.
     radius *= 1 + 8 * unit_roundoff;
-    // The mean of n numbers up to `extent`, summed one after another, then rounded to T.
-    off_centre = extent * (2 * n * unit_roundoff + 2 * double(std::numeric_limits<T>::epsilon()));
+    // The mean of n vectors, each product rounded twice, summed one after another.
+    off_centre = extent * (2 * n + 8) * unit_roundoff;
     cloud.pad();
     find_corners();
     if (flat) return;
-    if (closed(mesh.faces)) inner = inscribed(mesh.faces);
+    if (closed(faces)) inner = inscribed(faces);
     if (inner > 0) off_centre = 0;  // the centre is inside
-    supports = mesh.supports, unit = mesh.radius > 0 ? double(mesh.radius) : 1;
-    opposing = OpposingTable(cloud, n, mesh.faces, unit);
+    supports = SupportMap(all.x.data(), all.y.data(), all.z.data(), n, centre, radius);
+    opposing = OpposingTable(cloud, n, faces, radius);
     number = next_number();
   }
+
+  template <class T>
+  explicit Hull(const Mesh<T>& mesh) : Hull(vertices_of(mesh), mesh.faces) {}
 
   Vec3<double> point(int i) const {
     const auto k = std::size_t(i);
@@ -61,6 +67,14 @@ struct Hull {
   int size() const { return int(vertices.size()); }
 
  private:
+  template <class T>
+  static std::vector<Vec3<double>> vertices_of(const Mesh<T>& mesh) {
+    std::vector<Vec3<double>> all;
+    for (int i = 0; i < mesh.vertices.size(); ++i)
+      all.push_back(Vec3<double>(mesh.vertices[std::size_t(i)]));
+    return all;
+  }
+
   static std::uint64_t next_number() {
     static std::atomic<std::uint64_t> last{0};
     return ++last;

@@ -114,6 +114,14 @@ struct Opposed {
   int distances, portals, supports, growths;
 };
 
+// Of PosedPairs: 1 apart, 2 meeting, 0 not sure; the axis of what proved it; supports of the whole
+// bodies.
+struct Proved {
+  unsigned char verdict[most_posed];
+  float axis[3][most_posed];
+  int supports[most_posed];
+};
+
 template <class T>
 struct Kernels {
   int (*nearest)(const BlockView<T>&, const T* point, int k, NearestScratch<T>&,
@@ -136,6 +144,8 @@ struct Kernels {
   void (*pose_pairs)(const PairOfBodies&, const double* poses_a, const double* poses_b, int n,
                      PosedPairs&);
   int (*oppose)(const OpposedPair&, Opposed&);
+  void (*prove)(const SupportView& a, const SupportView& b, const PosedPairs&, int n,
+                const float* inside, Proved&);
 };
 
 }  // namespace ofg

@@ -125,7 +125,7 @@ struct OpposedSearch {
     if (!whole && (inner(s.m, d) < 0 || !(inner(s.m - base, d) > least))) {
       // The selection claims that it is over: ask the whole bodies. If they object, their vertices
       // join the portal, and every later one is looked for in the whole.
-      if (!(q.complete)) {
+      if (!q.complete) {
         const Corner t = of_bodies(d);
         if (inner(t.m, d) > inner(s.m, d)) s = t, ++out.growths, whole = true;
       }
