@@ -21,6 +21,7 @@ from .motion import Motion
 from .options import REPAIRS, repair_options
 from .pose import Pose
 from .query import QUESTIONS, Query
+from .verification import PairCache, verified, verified_many
 
 __all__ = [
     "Answer",
@@ -31,6 +32,7 @@ __all__ = [
     "COUNTS",
     "FOUND",
     "Motion",
+    "PairCache",
     "Pose",
     "QUESTIONS",
     "Query",
@@ -47,4 +49,6 @@ __all__ = [
     "rotational_sweep",
     "sweep_many",
     "translational_sweep",
+    "verified",
+    "verified_many",
 ]
