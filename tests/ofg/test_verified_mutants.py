@@ -60,7 +60,11 @@ MUTANTS = {
         "most - 128 * unit_roundoff * hull_.radius * length(axis)",
         "most",
     ),
-    "an inscribed ball of an open surface": (HULL, "if (closed(faces)) inner", "inner"),
+    "an inscribed ball of an open surface": (
+        HULL,
+        "if (!faces.empty() && closed(faces)) inner",
+        "inner",
+    ),
     "a cache of other bodies": (
         MAIN,
         "if (cache.a != a.number || cache.b != b.number) return false;",

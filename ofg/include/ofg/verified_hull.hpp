@@ -50,7 +50,7 @@ struct Hull {
     cloud.pad();
     find_corners();
     if (flat) return;
-    if (closed(faces)) inner = inscribed(faces);
+    if (!faces.empty() && closed(faces)) inner = inscribed(faces);
     if (inner > 0) off_centre = 0;  // the centre is inside
     supports = SupportMap(all.x.data(), all.y.data(), all.z.data(), n, centre, radius);
     opposing = OpposingTable(cloud, n, faces, radius);

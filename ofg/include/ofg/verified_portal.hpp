@@ -68,10 +68,18 @@ struct Search {
     const Vec3<double> inside = beside(a, b, start), v0 = at.between + inside * at.unit;
     Support v[3], s;
     if (ends(-v0, v[0])) return;
-    Vec3<double> n = cross(v[0].point, v0);
-    if (!(dot(n, n) > 0)) n = cross(v[0].point, Vec3<double>(v0.y, v0.z, -v0.x));
+    // The axis reflected at the corner that stands in its way: often it separates (Chung and Wang
+    // 1996), and any other corner will do for a second.
+    const Vec3<double> w = v[0].point;
+    Vec3<double> n = w * (2 * dot(w, v0) / dot(w, w)) - v0;
     if (ends(n, v[1])) return;
-    n = cross(v[0].point - v0, v[1].point - v0);
+    const Vec3<double> e = w - v0, f = v[1].point - v0;
+    n = cross(e, f);
+    if (!(dot(n, n) > 1e-20 * dot(e, e) * dot(f, f))) {  // in line with v0: any other will do
+      n = cross(e, Vec3<double>(e.y, e.z, -e.x));
+      if (ends(n, v[1])) return;
+      n = cross(e, v[1].point - v0);
+    }
     if (dot(n, v0) > 0) std::swap(v[0], v[1]), n = -n;
     bool seeking = true;  // the ray does not yet pass through the portal
     for (int step = 0; step < most_steps; ++step) {

@@ -14,9 +14,11 @@ OFG_INLINE Spot outer(const Spot& a, const Spot& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// A point of A - B, and the two that it is the difference of, each in its body's axes.
+// A point of A - B, and the two that it is the difference of: y and z follow x after list_unit and
+// twice that, in each body's axes.
 struct Corner {
-  Spot m, a, b;
+  Spot m;
+  const float *a, *b;
 };
 
 // The point of a patch least along an axis, but for sixteen units of rounding: see least_of_cell.
@@ -42,9 +44,7 @@ OFG_INLINE int least_of_patch(const float* patch, const Spot& axis) {
   return bits & (list_unit - 1);
 }
 
-OFG_INLINE Spot spot_of(const float* list, int i) {
-  return {list[i], list[list_unit + i], list[2 * list_unit + i]};
-}
+OFG_INLINE Spot spot_of(const float* x) { return {x[0], x[list_unit], x[2 * list_unit]}; }
 
 // The tetrahedron of v0 and three corners holds the origin, farther than the gap from each face:
 // holds_origin of verified_pose.hpp in single precision, 16 units of 2^-24 for 16 of 2^-53. Lengths
@@ -65,6 +65,7 @@ OFG_INLINE bool holds(const Spot& v0, const Corner* v, float gap) {
          side_of_origin(v0, v[1].m, v[0].m, gap) == s;
 }
 
+#define OFG_MEMBER inline __attribute__((always_inline))
 struct OpposedSearch {
   const OpposedPair& q;
   Opposed& out;
@@ -73,13 +74,13 @@ struct OpposedSearch {
 
   OpposedSearch(const OpposedPair& pair, Opposed& result) : q(pair), out(result) {}
 
-  Spot place(const Spot& p) const {
+  OFG_MEMBER Spot place(const Spot& p) const {
     return {(q.r[0] * p.x + q.r[1] * p.y + q.r[2] * p.z) + q.between[0],
             (q.r[3] * p.x + q.r[4] * p.y + q.r[5] * p.z) + q.between[1],
             (q.r[6] * p.x + q.r[7] * p.y + q.r[8] * p.z) + q.between[2]};
   }
 
-  void pose_patches() {
+  OFG_MEMBER void pose_patches() {
     constexpr int w = OFG_BYTES / 4;
     for (int i = 0; i < list_unit; i += w) {
       const Wide x = load(q.patch_a + i), y = load(q.patch_a + list_unit + i),
@@ -92,11 +93,10 @@ struct OpposedSearch {
     }
   }
 
-  Corner of_patches(const Spot& d) {
+  OFG_MEMBER Corner of_patches(const Spot& d) {
     out.distances += 2 * list_unit;
     const int i = least_of_patch(posed[0], {-d.x, -d.y, -d.z}), j = least_of_patch(posed[1], d);
-    return {spot_of(posed[0], i) - spot_of(posed[1], j), spot_of(q.patch_a, i),
-            spot_of(q.patch_b, j)};
+    return {spot_of(posed[0] + i) - spot_of(posed[1] + j), q.patch_a + i, q.patch_b + j};
   }
 
   Corner of_bodies(const Spot& d) {
@@ -105,22 +105,19 @@ struct OpposedSearch {
                            -(q.r[1] * d.x + q.r[4] * d.y + q.r[7] * d.z),
                            -(q.r[2] * d.x + q.r[5] * d.y + q.r[8] * d.z)};
     const float axis[3] = {d.x, d.y, d.z};
-    float a[3], b[3];
-    extreme(q.map_a, back, a), extreme(q.map_b, axis, b);
-    const Spot p = place({a[0], a[1], a[2]});
-    return {{p.x - q.size_b * b[0], p.y - q.size_b * b[1], p.z - q.size_b * b[2]},
-            {a[0], a[1], a[2]},
-            {b[0], b[1], b[2]}};
+    const float *a = extreme_at(q.map_a, back), *b = extreme_at(q.map_b, axis);
+    const Spot p = place(spot_of(a)), o = spot_of(b);
+    return {{p.x - q.size_b * o.x, p.y - q.size_b * o.y, p.z - q.size_b * o.z}, a, b};
   }
 
-  bool behind(const Spot& s, const Spot& d) const {
+  OFG_MEMBER bool behind(const Spot& s, const Spot& d) const {
     const float at = inner(s, d);
     return at < 0 && at * at > q.gap * q.gap * inner(d, d);
   }
 
   // The corner farthest along d, of the patches while these do for a search: `least` is how far
   // past `base` it has to be. True where a plane across d keeps the bodies apart.
-  bool ends(const Spot& d, const Spot& base, float least, Corner& s) {
+  OFG_MEMBER bool ends(const Spot& d, const Spot& base, float least, Corner& s) {
     s = whole ? of_bodies(d) : of_patches(d);
     if (!whole && (inner(s.m, d) < 0 || !(inner(s.m - base, d) > least))) {
       // The selection claims that it is over: ask the whole bodies. If they object, their vertices
@@ -142,30 +139,35 @@ struct OpposedSearch {
     if (!whole) pose_patches();
     Corner v[3], s;
     Spot d{-v0.x, -v0.y, -v0.z};
-    if (ends(d, v0, 0, v[0])) return 1;
-    d = outer(v[0].m, v0);
-    if (!(inner(d, d) > 0)) return 0;
-    if (ends(d, v0, 0, v[1])) return 1;
-    d = outer(v[0].m - v0, v[1].m - v0);
-    if (inner(d, v0) > 0) {
-      const Corner t = v[0];
-      v[0] = v[1], v[1] = t, d = {-d.x, -d.y, -d.z};
-    }
-    bool seeking = true;  // the ray does not yet pass through the portal
+    int corners = 0;  // known; with two of them the ray does not yet pass through a portal
     for (int step = 0; step < 24; ++step) {
-      const float least = seeking ? 0.0f : q.gap * size_of(d);
-      const Spot base = seeking ? v0 : v[0].m;
+      const float least = corners < 3 ? 0.0f : q.gap * size_of(d);
+      const Spot base = corners < 3 ? v0 : v[0].m;
       if (ends(d, base, least, s)) return 1;
       if (!(inner(s.m - base, d) > least)) return 0;  // nothing more to gain
-      if (seeking) {
+      if (corners < 2) {
+        v[corners++] = s;
+        if (corners == 1) {
+          // The axis reflected at the corner that stands in its way: often it separates (Chung and
+          // Wang 1996), and any other corner will do for a second.
+          const float twice = 2 * inner(s.m, d) / inner(s.m, s.m);
+          d = {d.x - twice * s.m.x, d.y - twice * s.m.y, d.z - twice * s.m.z};
+        } else {
+          d = outer(v[0].m - v0, s.m - v0);
+          if (inner(d, v0) > 0) v[1] = v[0], v[0] = s, d = {-d.x, -d.y, -d.z};
+        }
+        continue;
+      }
+      if (corners == 2) {
+        // s takes the place of the corner that it makes needless, or completes the portal.
         if (inner(outer(v[0].m, s.m), v0) < 0) {
           v[1] = s;
         } else if (inner(outer(s.m, v[1].m), v0) < 0) {
           v[0] = s;
         } else {
-          v[2] = s, seeking = false;
+          v[2] = s, corners = 3;
         }
-        if (seeking) {
+        if (corners == 2) {
           d = outer(v[0].m - v0, v[1].m - v0);
           continue;
         }
@@ -181,7 +183,8 @@ struct OpposedSearch {
       if (!holds(v0, v, q.gap)) continue;
       out.axis[0] = d.x, out.axis[1] = d.y, out.axis[2] = d.z;
       for (int i = 0; i < 3; ++i) {
-        const float six[6] = {v[i].a.x, v[i].a.y, v[i].a.z, v[i].b.x, v[i].b.y, v[i].b.z};
+        const Spot a = spot_of(v[i].a), b = spot_of(v[i].b);
+        const float six[6] = {a.x, a.y, a.z, b.x, b.y, b.z};
         __builtin_memcpy(out.corners[i], six, sizeof six);
       }
       return 2;
@@ -195,3 +198,4 @@ static int oppose(const OpposedPair& pair, Opposed& out) {
   OpposedSearch search(pair, out);
   return search.run();
 }
+#undef OFG_MEMBER
