@@ -25,6 +25,7 @@ from .motion import Motion
 from .options import REPAIRS, repair_options
 from .pose import Pose
 from .query import QUESTIONS, Query
+from .verification import PairCache, verified, verified_many
 
 __all__ = [
     "Answer",
@@ -35,6 +36,7 @@ __all__ = [
     "COUNTS",
     "FOUND",
     "Motion",
+    "PairCache",
     "Pose",
     "QUESTIONS",
     "Query",
@@ -51,4 +53,6 @@ __all__ = [
     "rotational_sweep",
     "sweep_many",
     "translational_sweep",
+    "verified",
+    "verified_many",
 ]

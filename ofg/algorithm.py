@@ -333,13 +333,14 @@ def _many(  # noqa: PLR0913 - the core's arguments
         algorithm,
         moving,
         single,
-        _threads(threads),
+        threads_of(threads),
     )
     toi = options.get("toi", "velocity")
     return Answers(hit, time, found, faces, pieces, counts, toi)
 
 
-def _threads(threads: int | None) -> int:
+def threads_of(threads: int | None) -> int:
+    """As many threads as given, or for None one per core. ValueError if out of range."""
     if threads is None:
         return min(os.cpu_count() or 1, MOST_THREADS)
     try:

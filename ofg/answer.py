@@ -22,6 +22,7 @@ COUNTS = (
     "full_tests",
     "evaluated",
     "steps",
+    "growths",
 )
 
 
@@ -45,7 +46,8 @@ class Answer:
     counts: operations by kind: spheres (pairs compared), distances (point to face or piece),
     face_pairs (settled), edge_faces (virtual edges against faces), edge_pairs, full_tests (the
     face_pairs not settled by a cheap rejection), evaluated (distances computed to settle
-    `distances`, to faces and to boxes of blocks of faces), steps (parts of the step, halvings).
+    `distances`, to faces and to boxes of blocks of faces), steps (parts of the step, halvings),
+    growths (of `verified`, which says what its counts are).
     """
 
     hit: bool
@@ -65,7 +67,7 @@ class Answers:
     """The fields of `Answer` as arrays over n queries.
 
     hit: (n,) bool. time: (n,) float64. found: (n,) int8, indices into FOUND. faces and pieces: (n,
-    2) int32. counts: (n, 8) int64 in the order of COUNTS. answers[i] is one Answer. The truth value
+    2) int32. counts: (n, 9) int64 in the order of COUNTS. answers[i] is one Answer. The truth value
     of many answers is ambiguous: bool(answers) raises ValueError.
     """
 

@@ -17,11 +17,14 @@
 #include "ofg/article.hpp"
 #include "ofg/batch.hpp"
 #include "ofg/brute_force.hpp"
+#include "returned.hpp"
+#include "verified.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
 
 using namespace given;
+using namespace returned;
 
 namespace {
 
@@ -97,7 +100,6 @@ ofg::Answer ask(Algorithm how, bool moving, const Solid& a, const Solid& b, cons
   return moving ? ofg::sweep(ba, bb, track, o, w) : ofg::overlap(ba, bb, track, o, w);
 }
 
-ofg::Pose pose_of(const double* p) { return {{p[0], p[1], p[2], p[3]}, {p[4], p[5], p[6]}}; }
 ofg::Motion motion_of(const double* m) {
   return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, m[6], {m[7], m[8], m[9]}};
 }
@@ -166,14 +168,6 @@ struct Prepared {
   }
 };
 
-constexpr int most_threads = 256;
-constexpr int columns = 8;
-void count(const ofg::Counts& c, std::int64_t* to) {
-  const std::int64_t all[columns] = {c.spheres,    c.distances,  c.face_pairs, c.edge_faces,
-                                     c.edge_pairs, c.full_tests, c.evaluated,  c.steps};
-  std::copy(all, all + columns, to);
-}
-
 template <class T>
 void ask_range(Algorithm how, bool moving, const Solid& a, const Solid& b, const double* pa,
                const double* pb, const double* ma, const double* mb, const ofg::Options& o,
@@ -193,15 +187,6 @@ void ask_range(Algorithm how, bool moving, const Solid& a, const Solid& b, const
   }
 }
 
-template <class T>
-nb::ndarray<nb::numpy, T> array(std::vector<std::size_t> shape, T*& data) {
-  std::size_t n = 1;
-  for (auto s : shape) n *= s;
-  data = new T[n ? n : 1];
-  nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<T*>(p); });
-  return nb::ndarray<nb::numpy, T>(data, shape.size(), shape.data(), owner);
-}
-
 nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubles ma, Doubles mb,
                    const ofg::Options& o, int how, bool moving, bool single, int threads) {
   const std::size_t n = pa.shape(0);
@@ -217,41 +202,12 @@ nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb, Doubl
   {
     nb::gil_scoped_release released;
     const auto range = single ? ask_range<float> : ask_range<double>;
-    const std::size_t parts = std::min(std::size_t(threads), std::max<std::size_t>(n, 1));
-    std::vector<std::thread> others;
-    const auto part = [&](std::size_t i) {
-      range(algorithm, moving, a, b, pa.data(), pb.data(), ma.data(), mb.data(), o, n * i / parts,
-            n * (i + 1) / parts, answers.data());
-    };
-    std::size_t started = 1;
-    try {
-      for (; started < parts; ++started) others.emplace_back(part, started);
-    } catch (const std::system_error&) {
-      // The machine has no more threads to give: this one does the rest.
-    }
-    part(0);
-    for (std::size_t i = started; i < parts; ++i) part(i);
-    for (auto& t : others) t.join();
+    in_parts(n, threads, [&](std::size_t from, std::size_t to) {
+      range(algorithm, moving, a, b, pa.data(), pb.data(), ma.data(), mb.data(), o, from, to,
+            answers.data());
+    });
   }
-  bool* hit;
-  double* time;
-  std::int8_t* found;
-  std::int32_t *faces, *pieces;
-  std::int64_t* counts;
-  auto hits = array<bool>({n}, hit);
-  auto times = array<double>({n}, time);
-  auto founds = array<std::int8_t>({n}, found);
-  auto all_faces = array<std::int32_t>({n, 2}, faces);
-  auto all_pieces = array<std::int32_t>({n, 2}, pieces);
-  auto all_counts = array<std::int64_t>({n, columns}, counts);
-  for (std::size_t i = 0; i < n; ++i) {
-    const ofg::Answer& x = answers[i];
-    hit[i] = x.hit, time[i] = x.time, found[i] = std::int8_t(x.found);
-    faces[2 * i] = x.face_a, faces[2 * i + 1] = x.face_b;
-    pieces[2 * i] = x.piece_a, pieces[2 * i + 1] = x.piece_b;
-    count(x.counts, counts + columns * i);
-  }
-  return nb::make_tuple(hits, times, founds, all_faces, all_pieces, all_counts);
+  return in_arrays(answers);
 }
 
 }  // namespace
@@ -346,6 +302,7 @@ NB_MODULE(_core, m) {
       .def_rw("containment", &ofg::Options::containment)
       .def_rw("earliest", &ofg::Options::earliest)
       .def_rw("screen", &ofg::Options::screen);
+  verified::add_to(m);
   nb::class_<Prepared>(m, "Prepared")
       .def(nb::init<nb::object, nb::object, Doubles, Doubles, const ofg::Options&, int, bool,
                     bool>(),

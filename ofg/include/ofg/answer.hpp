@@ -20,11 +20,12 @@ struct Counts {
   std::int64_t evaluated =
       0;  // distances computed to settle `distances`: to boxes of blocks and to faces
   std::int64_t steps = 0;  // parts into which the step was divided, and halvings of a bisection
+  std::int64_t growths = 0;  // of a verified selection: whole bodies that objected to it
   void add(const Counts& c) {
     spheres += c.spheres, distances += c.distances, face_pairs += c.face_pairs,
         edge_faces += c.edge_faces;
     edge_pairs += c.edge_pairs, full_tests += c.full_tests, evaluated += c.evaluated,
-        steps += c.steps;
+        steps += c.steps, growths += c.growths;
   }
 };
 

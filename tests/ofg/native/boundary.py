@@ -125,6 +125,7 @@ class Calls:
     def __init__(self, core, native, seed: int):
         self.core, self.native, self.g = core, native, Garbage(seed)
         self.solids, self.proved, self.movers = [], [], [native.Mover(*STILL)]
+        self.hulls, self.cache = [], core.Cache()
 
     def solid(self):
         pieces = [self.g.mesh() for _ in range(self.g.random.integers(0, 3))]
@@ -210,6 +211,28 @@ class Calls:
             self.threads(),
         )
 
+    def hull(self):
+        meshes = [self.g.mesh() for _ in range(self.g.random.integers(0, 3))]
+        faces = [f for _, f in meshes][: -1 if self.g.often(0.02) else None]
+        self._keep(self.hulls, self.core.Hulls([v for v, _ in meshes], faces))
+
+    def verified_many(self):
+        n = int(self.g.random.integers(0, 4))
+        self.core.verified_many(
+            self.one(self.hulls),
+            self.one(self.hulls),
+            self.g.poses(n),
+            self.g.poses(n),
+            self.cache if self.g.often(0.5) else None,
+            self.g.often(0.5),
+            self.threads(),
+        )
+
+    def prepared_verified(self):
+        pair = self.one(self.hulls), self.one(self.hulls)
+        made = self.core.PreparedVerified(*pair, self.g.poses(2), self.g.often(0.5))
+        made(), made()
+
     def threads(self) -> int:
         return self.g.whole() if self.g.often(0.02) else 1
 
@@ -279,6 +302,9 @@ def main(folder: str, calls: int = 10**6, seconds: float = 1e9, seed: int = 1) -
     made = Calls(loaded(folder, "_core"), loaded(folder, "_native"), seed)
     shares = {
         "solid": 2,
+        "hull": 2,
+        "verified_many": 4,
+        "prepared_verified": 2,
         "of_mesh": 2,
         "of_pieces": 2,
         "mover": 3,

@@ -99,6 +99,33 @@ struct PairOfBodies {
   double centre_a[3], centre_b[3], radius_a, radius_b, rounding, slack, extents;
 };
 
+// One pair as PosedPairs has it, and the vertices that oppose each other: list_unit of each body in
+// units of its radius, in its axes.
+struct OpposedPair {
+  const float *patch_a, *patch_b;
+  SupportView map_a, map_b;
+  bool complete;  // no body has a vertex outside its patch
+  bool whole;     // supports are those of the whole bodies from the start
+  float r[9], between[3], size_b, gap;
+  float inside[3];  // what leads from `between` to the start of the ray, inside A - B
+};
+
+// axis: of the plane that keeps them apart, or out of the portal. corners: of a portal that holds
+// the origin, of A and of B each in its axes, as patches are. What was looked at: vertices of
+// patches along an axis, portals, supports of the whole bodies, and how many of these objected.
+struct Opposed {
+  float axis[3], corners[3][6];
+  int distances, portals, supports, growths;
+};
+
+// Of PosedPairs: 1 apart, 2 meeting, 0 not sure; the axis of what proved it; supports of the whole
+// bodies.
+struct Proved {
+  unsigned char verdict[most_posed];
+  float axis[3][most_posed];
+  int supports[most_posed];
+};
+
 template <class T>
 struct Kernels {
   int (*nearest)(const BlockView<T>&, const T* point, int k, NearestScratch<T>&,
@@ -120,6 +147,9 @@ struct Kernels {
                  unsigned char* verdict);
   void (*pose_pairs)(const PairOfBodies&, const double* poses_a, const double* poses_b, int n,
                      PosedPairs&);
+  int (*oppose)(const OpposedPair&, Opposed&);
+  void (*prove)(const SupportView& a, const SupportView& b, const PosedPairs&, int n,
+                const float* inside, Proved&);
 };
 
 }  // namespace ofg

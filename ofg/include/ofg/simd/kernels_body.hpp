@@ -143,11 +143,15 @@ static void transform(T* x, T* y, T* z, int n, const T* m, const T* p) {
 
 #include "portal_body.hpp"
 
+#include "opposing_body.hpp"
+
+#include "proving_body.hpp"
+
 template <class T>
 Kernels<T> kernels() {
   return {nearest<T>,    support<T>,       farthest<T>,    planes_apart<T>, edges_apart<T>,
           planes_gap<T>, segments_miss<T>, boxes_apart<T>, transform<T>,    extreme,
-          reflect,       portal,           pose_pairs};
+          reflect,       portal,           pose_pairs,     oppose,          prove};
 }
 
 #undef OFG_INLINE

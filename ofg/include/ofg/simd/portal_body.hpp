@@ -40,7 +40,7 @@ OFG_INLINE Mask cells_of(const Point& d, int side) {
 
 // The point of a list least along an axis, up to sixteen units of rounding: its number is stored in
 // the last bits of its product.
-OFG_INLINE void least_of_cell(const SupportView& m, int cell, const float* axis, float* point) {
+OFG_INLINE const float* least_of_cell_at(const SupportView& m, int cell, const float* axis) {
   constexpr int w = OFG_BYTES / 4;
   const float* list = m.points + 3 * list_unit * m.first[cell];
   const float* const end = m.points + 3 * list_unit * m.first[cell + 1];
@@ -66,11 +66,15 @@ OFG_INLINE void least_of_cell(const SupportView& m, int cell, const float* axis,
     __builtin_memcpy(&bits, &least, sizeof bits);
     if (at == list || least < best) best = least, found = at + (bits & (list_unit - 1));
   }
+  return found;
+}
+OFG_INLINE void least_of_cell(const SupportView& m, int cell, const float* axis, float* point) {
+  const float* found = least_of_cell_at(m, cell, axis);
   point[0] = found[0], point[1] = found[list_unit], point[2] = found[2 * list_unit];
 }
 
 // The point of a set least along an axis: the lookup of cells_of for one direction.
-static void extreme(const SupportView& m, const float* axis, float* point) {
+OFG_INLINE const float* extreme_at(const SupportView& m, const float* axis) {
   const float d[3] = {-axis[0], -axis[1], -axis[2]};
   const float s[3] = {d[0] < 0 ? -d[0] : d[0], d[1] < 0 ? -d[1] : d[1], d[2] < 0 ? -d[2] : d[2]};
   const int major = s[0] >= s[1] && s[0] >= s[2] ? 0 : s[1] >= s[2] ? 1 : 2;
@@ -81,7 +85,11 @@ static void extreme(const SupportView& m, const float* axis, float* point) {
     u = u > 0 ? u : 0.0f;  // and what is not a number
     cell = cell * m.side + int(u < last ? u : last);
   }
-  least_of_cell(m, cell, axis, point);
+  return least_of_cell_at(m, cell, axis);
+}
+static void extreme(const SupportView& m, const float* axis, float* point) {
+  const float* found = extreme_at(m, axis);
+  point[0] = found[0], point[1] = found[list_unit], point[2] = found[2 * list_unit];
 }
 
 // The open lanes, as a list: a branch on each lane would be mispredicted whenever one closes.

@@ -1,0 +1,50 @@
+"""Verified Opposing Face Geometry behind the same contract as the engines, and what it is compared
+with: the same portal without a selection.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import ofg
+from ofg import Query
+from ofg.verification import prepare_verified
+
+from .contract import Method, Unsupported, Verdict
+
+
+class Verified(Method):
+    """Opposing faces by a table of directions, a portal over their vertices, an answer that the
+    whole bodies confirm, and exact arithmetic where doubles cannot. Unions by pairs of pieces.
+    """
+
+    name = "ofg-verified"
+    engine = "ofg"
+    imports = "ofg"
+    configuration = "best effort"
+    questions = frozenset({"overlap"})
+    bodies = frozenset({"convex", "union"})
+    solid = True
+    guarantee = "every answer is proved, in doubles by more than their rounding or exactly"
+    selection = True
+
+    def prepare(self, query: Query) -> Callable[[], Verdict]:
+        self.refuse(query)
+        try:
+            ask = prepare_verified(query, selection=self.selection)
+        except ofg.BodyError as error:
+            raise Unsupported(str(error)) from error
+        return lambda: Verdict(*ask())
+
+
+class Portal(Verified):
+    """`ofg-verified` without the opposing faces: every step of the portal asks the whole bodies.
+    What the selection is worth is the difference.
+    """
+
+    name = "ofg-mpr"
+    configuration = "alternative"
+    selection = False
+
+
+METHODS = [Verified, Portal]
