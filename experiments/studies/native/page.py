@@ -22,7 +22,7 @@ ORDER = {
 
 
 def page(rows: pd.DataFrame, facts: list[str], parts: bool = True) -> str:
-    """Markdown. rows: as `summary` gives them. facts: what was built and asked.
+    """Markdown. rows: as `summary` gives them. facts: what was built and measured.
 
     parts: with tables of every contestant and of OFG's steps.
     """
@@ -38,18 +38,18 @@ def page(rows: pd.DataFrame, facts: list[str], parts: bool = True) -> str:
 
 LEGEND = [
     (
-        "Nanoseconds per query: medians over rounds (three, where a round takes a contestant half"
-        " a second), then over blocks of queries, less what the call and the clock cost. Of each"
-        " library the configuration that took least stands in the cell, whatever it answers; in"
-        " brackets, wherever there are any, its wrong answers of the certified cases. Quotient:"
-        f" {OURS} over the fastest of all libraries, in batch cells {SCREENED}; block by block,"
-        " with its 95 % bootstrap interval."
+        "Nanoseconds per query, net of the cost of an empty call and the clock: the median over"
+        " rounds (three rounds for a method that takes half a second per round), then over blocks"
+        " of queries. Each cell shows the fastest configuration of a library, whether or not its"
+        " answers are right; brackets give its wrong answers among the certified cases. Ratio:"
+        f" {OURS} over the fastest library ({SCREENED} in batch cells), paired by block, with its"
+        " 95 % bootstrap interval."
     ),
     "",
     (
-        "cold: every pair once, with bodies of its own. warm: many poses of one pair, call by call."
-        " batch: the same in one call; no engine has such a call, so their single calls stand there"
-        " (*). coherent: small steps along a trajectory, each engine with what it remembers, too."
+        "cold: each pair once, with its own bodies. warm: many poses of one pair, one call each."
+        " batch: the same poses in one call; no engine offers this, so * marks the time of its"
+        " single calls. coherent: small steps along a trajectory, with each engine's cache as well."
     ),
 ]
 
@@ -75,7 +75,7 @@ def ordered(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def builds(rows: pd.DataFrame) -> str:
-    """What was built how."""
+    """How each library was built."""
     each = rows.groupby(["build", "isa"], sort=False, observed=True).size().index
     engines = [f"{build} ({isa})" for build, isa in each if isa not in CLASSES.values()]
     own = {build for build, isa in each if isa in CLASSES.values()}
@@ -83,9 +83,9 @@ def builds(rows: pd.DataFrame) -> str:
 
 
 def title(name: str) -> str:
-    """What stands in a class."""
+    """The title of a class of builds."""
     theirs = "generic" if name == "generic" else f"{V3}"
-    return f"OFG with {CLASSES[name]}, engines in {theirs} builds or the only one there is"
+    return f"OFG with {CLASSES[name]}, engines in {theirs} builds (or their only build)"
 
 
 def overview(rows: pd.DataFrame) -> pd.DataFrame:
@@ -98,7 +98,7 @@ def overview(rows: pd.DataFrame) -> pd.DataFrame:
         for name in LIBRARIES.values():
             row[name] = shown(cell[cell.engine.map(library) == name])
         own = cell[cell.engine == (SCREENED if row["mode"] == "batch" else OURS)]
-        row["quotient"] = next((quotient(r) for _, r in own.iterrows()), "-")
+        row["ratio"] = next((quotient(r) for _, r in own.iterrows()), "-")
         made.append(row)
     return pd.DataFrame(made)
 
@@ -127,14 +127,14 @@ def quotient(row: pd.Series) -> str:
 
 
 def details(rows: pd.DataFrame) -> list[str]:
-    """For each mode and situation every contestant of the class V3 against the sizes of hulls."""
+    """For each mode and situation, every method in the V3 builds by size of hull."""
     lines = [
         "",
-        f"## Every contestant: OFG with {CLASSES[V3]}, engines in {V3} builds",
+        f"## All methods: OFG with {CLASSES[V3]}, engines in {V3} builds",
         "",
         (
-            f"ns; then the quotient with {OURS}, for OFG itself with the fastest engine; then"
-            " wrong answers. Other shapes, classes and OFG in floats: rows.parquet."
+            f"Each cell: ns; the ratio to {OURS} (for OFG, to the fastest engine); wrong answers."
+            " rows.parquet also has the other shapes, builds and OFG in single precision."
         ),
     ]
     left = "to step|precision=float"
@@ -168,7 +168,7 @@ def _steps(rows: pd.DataFrame) -> list[str]:
         "",
         f"## Steps of OFG, {CLASSES[V3]}, ns",
         "",
-        "Many poses of one pair: differences of what stops after a step.",
+        "Many poses of one pair. The time of a step is the difference to the run that stops before it.",
         "",
         markdown(steps(rows, V3)),
     ]

@@ -45,8 +45,8 @@ def study(
     else:
         cells, left = list(certified.cells(Store(run), cases)), certified.left_out(Store(run))
         asked = (
-            f"Certified cases of the run {run.name}, up to {cases} of a cell. {left} of"
-            " unions, or of two bodies that turn, are not for the native lane."
+            f"Certified cases of the run {run.name}, up to {cases} per cell. {left} cases of unions, or"
+            " of two rotating bodies, are left out."
         )
     made = saving.facts(asked=asked, rounds=rounds)
     times, answers, both, noise = _measured(cells, rounds, core, python)
@@ -85,7 +85,7 @@ def head() -> list[str]:
 
 def _noise(noise: list[float]) -> str:
     return (
-        "Noise probe, the same arithmetic every time: the 90th percentile of its rounds lies"
+        "Noise probe (a fixed computation): the 90th percentile of its rounds lies"
         f" {100 * np.nanmedian(noise):.0f} % above their median in the median cell,"
         f" {100 * np.nanmax(noise):.0f} % in the worst."
     )
@@ -101,12 +101,12 @@ def _against(store: Store, rows: pd.DataFrame, answers: pd.DataFrame) -> list[st
     engines_alone, methods_alone = twins.alone(rows.engine.unique(), observed.method.unique())
     return [
         (
-            f"{len(labels)} contestants have a twin among the methods of the run; of"
-            f" {told.cases.sum()} answers to the same cases {told.differ.sum()} differ:"
+            f"{len(labels)} native configurations correspond to methods of the run. Of"
+            f" {told.cases.sum()} answers to the same cases, {told.differ.sum()} differ:"
             f" {', '.join(differ) or 'none'}."
         ),
-        f"Contestants without a twin in it: {', '.join(engines_alone) or 'none'}.",
-        f"Methods without a native twin: {', '.join(methods_alone) or 'none'}.",
+        f"Native configurations without a corresponding method in the run: {', '.join(engines_alone) or 'none'}.",
+        f"Methods without a native counterpart: {', '.join(methods_alone) or 'none'}.",
     ]
 
 
@@ -120,8 +120,8 @@ def _both(parts: list[pd.DataFrame]) -> str:
         "## From Python and in C++, ns",
         "",
         (
-            "gross: from Python. net: gross less the method's floor. ratio: net over native. same:"
-            " cases to which both say the same."
+            "gross: from Python. net: gross minus the method's floor. ratio: net over native. same:"
+            " cases with the same answer in both."
         ),
         "",
         markdown(shown),
