@@ -168,7 +168,8 @@ def _steps(rows: pd.DataFrame) -> list[str]:
         "",
         f"## Steps of OFG, {CLASSES[V3]}, ns",
         "",
-        "Many poses of one pair. The time of a step is the difference to the run that stops before it.",
+        "Many poses of one pair. The time of a step is the difference to the run that stops"
+        " before it.",
         "",
         markdown(steps(rows, V3)),
     ]

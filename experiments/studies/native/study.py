@@ -45,8 +45,8 @@ def study(
     else:
         cells, left = list(certified.cells(Store(run), cases)), certified.left_out(Store(run))
         asked = (
-            f"Certified cases of the run {run.name}, up to {cases} per cell. {left} cases of unions, or"
-            " of two rotating bodies, are left out."
+            f"Certified cases of the run {run.name}, up to {cases} per cell. {left} cases of"
+            " unions, or of two rotating bodies, are left out."
         )
     made = saving.facts(asked=asked, rounds=rounds)
     times, answers, both, noise = _measured(cells, rounds, core, python)
@@ -105,7 +105,10 @@ def _against(store: Store, rows: pd.DataFrame, answers: pd.DataFrame) -> list[st
             f" {told.cases.sum()} answers to the same cases, {told.differ.sum()} differ:"
             f" {', '.join(differ) or 'none'}."
         ),
-        f"Native configurations without a corresponding method in the run: {', '.join(engines_alone) or 'none'}.",
+        (
+            "Native configurations without a corresponding method in the run:"
+            f" {', '.join(engines_alone) or 'none'}."
+        ),
         f"Methods without a native counterpart: {', '.join(methods_alone) or 'none'}.",
     ]
 

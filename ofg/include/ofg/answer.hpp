@@ -19,7 +19,7 @@ struct Counts {
   std::int64_t full_tests = 0;  // the face_pairs that no cheap rejection settled
   std::int64_t evaluated =
       0;  // distances computed to settle `distances`: to boxes of blocks and to faces
-  std::int64_t steps = 0;  // parts into which the step was divided, and halvings of a bisection
+  std::int64_t steps = 0;    // parts into which the step was divided, and halvings of a bisection
   std::int64_t growths = 0;  // of a verified selection: whole bodies that objected to it
   void add(const Counts& c) {
     spheres += c.spheres, distances += c.distances, face_pairs += c.face_pairs,
