@@ -230,7 +230,10 @@ def _times(config, frames, found: Findings) -> None:
         case = cases.loc[row.case] if row.case in cases.index else None
         own = row.case == timing.FLOOR or row.method == timing.PROBE  # of the clock, not of a case
         doubled = not own and seen[(*bin_, row.method, row.case)] > 1
-        if doubled or not (own or row.method in asked):
+        if row.method == timing.LOST:  # in place of a case: the label, and why it has no times
+            if row.case.partition(":")[0] not in {*asked, "all methods"} or len(row.rounds_ns):
+                found.refuse(where, "timings.parquet has rows of it that no run makes")
+        elif doubled or not (own or row.method in asked):
             found.refuse(where, "timings.parquet has rows of it that no run makes")
         elif not own and (case is None or bin_ != (case.question, str(case.bin), case.situation)):
             found.refuse(where, "it was timed in a bin to which it does not belong")

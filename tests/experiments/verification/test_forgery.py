@@ -11,6 +11,7 @@ import shutil
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from experiments import verification
@@ -18,6 +19,7 @@ from experiments.cli import runner
 from experiments.run.config import RunConfig
 from experiments.run.folder import manifest
 from experiments.run.folder.store import Store
+from experiments.run.timing import LOST
 from experiments.verification import verify
 
 CONFIG = RunConfig(
@@ -237,3 +239,18 @@ def test_a_finished_run_takes_other_words_and_nothing_else(run, tmp_path):
     path.write_text(path.read_text().replace("Reworded.", "By hand."))
     runner.run(CONFIG.model_copy(update={"title": "Again."}), folder, 1)
     assert any("config.json" in found for found in verify(Store(folder), workers=1).refused)
+
+
+@pytest.mark.parametrize(
+    "case, ok",
+    [("ofg k=4: killed", True), ("all methods: killed", True), ("nobody: killed", False)],
+)
+def test_a_method_that_lost_its_times_is_no_forgery(run, tmp_path, case, ok):
+    """The committed run standard has 43 such rows, and all were refused."""
+
+    def lost(frame):
+        row = {**frame.iloc[0].to_dict(), "case": case, "method": LOST, "rounds_ns": []}
+        return pd.concat([frame, pd.DataFrame([{**row, "build_ns": 0}])], ignore_index=True)
+
+    store = forged(run, tmp_path / "f", lost, "timings")
+    assert verify(store, workers=1).ok == ok
