@@ -243,7 +243,8 @@ def casts(runs: Runs):
     ]
     if not any(m.startswith("bullet") and "-cast" in m for m in counts.index):
         raise Missing(
-            "the run tunnelling contains no casts of Bullet; run make native, then ofg-bench run"
+            "the run tunnelling contains no casts of Bullet; run ofg-bench native --build, then"
+            " ofg-bench run"
             " tunnelling"
         )
     return rows
@@ -343,7 +344,7 @@ OBJECTIONS = (
         "All three are run in default and best effort configurations. FCL's best effort"
         " configuration uses the solver and the path model with the fewest misses.",
         casts,
-        "make native && ofg-bench run tunnelling --out results/tunnelling",
+        "ofg-bench native --build && ofg-bench run tunnelling --out results/tunnelling",
     ),
     Objection(
         "Comparable times",
