@@ -244,8 +244,7 @@ def casts(runs: Runs):
     if not any(m.startswith("bullet") and "-cast" in m for m in counts.index):
         raise Missing(
             "the run tunnelling contains no casts of Bullet; run ofg-bench native --build, then"
-            " ofg-bench run"
-            " tunnelling"
+            " ofg-bench run tunnelling"
         )
     return rows
 
