@@ -140,7 +140,7 @@ fuzz: build
 	$(BIN)/cmake -S tests/ofg/native -B build/fuzz -DCMAKE_BUILD_TYPE=Release
 	$(BIN)/cmake --build build/fuzz --target fuzz fuzz_verified
 	build/fuzz/fuzz $(QUERIES) $(SECONDS)
-	build/fuzz/fuzz_verified $(QUERIES) $(SECONDS)
+	ASAN_OPTIONS=malloc_context_size=0 build/fuzz/fuzz_verified $(QUERIES) $(SECONDS)
 
 SEED ?= 1
 fuzz-verified: build

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Verified Opposing Face Geometry behind the same contract as the engines, and what it is compared
 with: the same portal without a selection.
 """

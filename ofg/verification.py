@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Verified Opposing Face Geometry: overlap of solids, each answer proved or decided exactly."""
 
 from __future__ import annotations

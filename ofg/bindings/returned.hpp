@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // What the core gives back to Python, and the threads that it asks with.
 #pragma once
 #include <nanobind/nanobind.h>

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Python's way to verified overlap.
 #pragma once
 #include <nanobind/nanobind.h>

@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """ofg-verified never contradicts a certified label: all families of overlap of convex bodies and
 unions, and the labels of the published runs.
 """

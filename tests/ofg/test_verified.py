@@ -1,3 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The ofg authors
+#
+# SPDX-License-Identifier: MIT
+
 """Verified OFG answers about the solids as they are given, wherever doubles end."""
 
 from dataclasses import replace

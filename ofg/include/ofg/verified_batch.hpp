@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Verified overlap of one pair of hulls at many poses.
 #pragma once
 #include "batch.hpp"
@@ -25,6 +29,10 @@ inline void prove_many(const Hull& a, const Hull& b, const Pose* pa, const Pose*
   kernels<double>.pose_pairs(bodies, reinterpret_cast<const double*>(pa),
                              reinterpret_cast<const double*>(pb), n, pairs);
   int rest[most_posed], left = 0;
+  const auto keep = [&](int i, int pair) {
+    ofg::detail::move_pair(pairs, i, left);
+    rest[left++] = pair;
+  };
   for (int i = 0; i < n; ++i) {
     answers[i] = Answer();
     answers[i].counts.spheres = answers[i].counts.steps = 1;
@@ -37,18 +45,29 @@ inline void prove_many(const Hull& a, const Hull& b, const Pose* pa, const Pose*
       continue;
     }
     settled[i] = false;
-    if (!(gap < 1)) continue;  // nothing is proved by such a gap, nor with what is no number
-    ofg::detail::move_pair(pairs, i, left);
-    rest[left++] = i;
+    if (gap < 1) keep(i, i);  // else nothing is proved, nor with what is no number
+  }
+  // Of larger bodies most that are apart at all are so along one of a few axes: then the portals,
+  // closed up, wait for fewer of one another.
+  const SupportView map_a = a.supports.view(), map_b = b.supports.view();
+  if (a.size() > list_unit && b.size() > list_unit) {
+    unsigned char verdict[most_posed];
+    const int asked = left;
+    kernels<double>.reflect(map_a, map_b, pairs, ofg::detail::fill_up(pairs, left), 2, verdict);
+    left = 0;
+    for (int i = 0; i < asked; ++i) {
+      answers[rest[i]].counts.full_tests = 2;
+      settled[rest[i]] = verdict[i] == 1;
+      if (verdict[i] != 1) keep(i, rest[i]);
+    }
   }
   const Vec3<double> beside = verified::detail::beside(a, b, 0) * (1 / sum);
   const float inside[3] = {float(beside.x), float(beside.y), float(beside.z)};
   Proved proved;
-  kernels<double>.prove(a.supports.view(), b.supports.view(), pairs,
-                        ofg::detail::fill_up(pairs, left), inside, proved);
+  kernels<double>.prove(map_a, map_b, pairs, ofg::detail::fill_up(pairs, left), inside, proved);
   for (int i = 0; i < left; ++i) {
     Answer& answer = answers[rest[i]];
-    answer.counts.full_tests = proved.supports[i];
+    answer.counts.full_tests += proved.supports[i];
     if (proved.verdict[i] == 0) continue;
     settled[rest[i]] = true;
     if (proved.verdict[i] == 1) continue;

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Do the interiors of two convex hulls meet, decided without rounding on the vertices, quaternions
 // and positions as they are given? Touching is no meeting.
 #pragma once

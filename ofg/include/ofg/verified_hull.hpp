@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // What verified overlap knows of a convex body before it is asked: the convex hull of the vertices.
 // The faces name what opposes and bound the inscribed sphere; no answer trusts them to be convex.
 #pragma once

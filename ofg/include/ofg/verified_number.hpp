@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Exact arithmetic on doubles: sums, differences and products without rounding. For the few
 // questions that doubles cannot settle.
 #pragma once

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // A portal in doubles (Snethen, XenoCollide, in Game Programming Gems 7, 2008) that proves what it
 // answers, or answers nothing.
 #pragma once

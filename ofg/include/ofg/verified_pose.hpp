@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Two hulls at one pair of poses, in B's axes, and how far rounding may have moved them.
 #pragma once
 #include "motion.hpp"

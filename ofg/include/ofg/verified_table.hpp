@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // The faces of a convex body that oppose a direction, by table: for each cell of a cube map, the
 // sixteen vertices of the faces that lie farthest that way, and the face in front.
 #pragma once
@@ -60,7 +64,7 @@ class OpposingTable {
       }
       for (int i = 0; i < n && whole && int(taken.size()) < n; ++i)  // those that no face names
         if (seen[std::size_t(i)] != cell) taken.push_back(i);
-      for (int axis = 0; axis < 3; ++axis)
+      for (int axis = 0; axis < 3 && (!whole || cell == 0); ++axis)
         for (int i = 0; i < patch_size; ++i) {
           const Vec3<double> p = at(taken[std::size_t(i < int(taken.size()) ? i : 0)]) * (1 / unit);
           points.push_back(float(axis == 0 ? p.x : axis == 1 ? p.y : p.z));
@@ -69,9 +73,10 @@ class OpposingTable {
     }
   }
 
-  // x, y, z of patch_size points each, in units of `unit`; the first is farthest along the cell.
+  // x, y, z of patch_size points each, in units of `unit`. A body of no more vertices has one
+  // patch.
   const float* patch(const Vec3<double>& d) const {
-    return points.data() + 3 * patch_size * std::size_t(cell_of(d));
+    return whole ? points.data() : points.data() + 3 * patch_size * std::size_t(cell_of(d));
   }
   // The face that opposes a direction.
   int face(const Vec3<double>& d) const { return front_face[std::size_t(cell_of(d))]; }

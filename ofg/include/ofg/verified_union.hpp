@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Verified overlap of bodies in several convex pieces, and of one pair of bodies at many poses.
 #pragma once
 #include <algorithm>

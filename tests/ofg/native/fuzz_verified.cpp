@@ -1,9 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Random pairs of convex bodies through verified overlap, each answer compared with the judge's
 // (judge.hpp) or, of larger bodies, with brute force over the faces. Usage: fuzz_verified [queries]
 // [seconds] [seed]. Prints the query and stops at the first fault; then the record.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <string>
 
 #include "judge.hpp"
@@ -105,20 +110,28 @@ judge::Says judged(const Hull& a, const Hull& b, const ofg::Pose& p, const ofg::
   return judge::overlap({judge::posed(a.vertices, p, q.p), judge::posed(b.vertices, q, q.p)});
 }
 
-// By the faces of bodies that are convex up to rounding, unless they are within 1e-9 of touching:
+// The faces of bodies that are convex up to rounding. Within 1e-9 of touching they say nothing:
 // then growing or shrinking A changes what brute force says.
-judge::Says by_faces(const Shape& s, const Shape& t, const ofg::Pose& p, const ofg::Pose& q) {
-  bool said[2];
-  for (int i = 0; i < 2; ++i) {
-    Shape u = s;
-    for (auto& x : u.v) x *= i == 0 ? 1 + 1e-9 : 1 - 1e-9;
-    const auto a = body<double>(u, true), b = body<double>(t, true);
-    const ofg::Track track(p, q);
-    said[i] = ofg::brute_force::overlap(a, b, track).hit ||
-              ofg::one_inside_other(a.whole, b.whole, track.at(0));
+struct Faces {
+  ofg::Body<double> a[2], b;
+
+  Faces(const Shape& s, const Shape& t) : b(body<double>(t, true)) {
+    for (int i = 0; i < 2; ++i) {
+      Shape u = s;
+      for (auto& x : u.v) x *= i == 0 ? 1 + 1e-9 : 1 - 1e-9;
+      a[i] = body<double>(u, true);
+    }
   }
-  return said[0] != said[1] ? judge::Says::near : said[0] ? judge::Says::hit : judge::Says::clear;
-}
+
+  judge::Says operator()(const ofg::Pose& p, const ofg::Pose& q) const {
+    const ofg::Track track(p, q);
+    bool said[2];
+    for (int i = 0; i < 2; ++i)
+      said[i] = ofg::brute_force::overlap(a[i], b, track).hit ||
+                ofg::one_inside_other(a[i].whole, b.whole, track.at(0));
+    return said[0] != said[1] ? judge::Says::near : said[0] ? judge::Says::hit : judge::Says::clear;
+  }
+};
 
 // As good as touching: from centre near centre A goes along a direction until they part, and a gap
 // more or less.
@@ -150,46 +163,51 @@ void move_to_touch(Random& r, const Hull& a, const Hull& b, const Kind& kind, do
   ++tally.closest;
 }
 
-const char* one(Random& r, const Hull& a, const Hull& b, const Shape& s, const Shape& t,
-                const Kind& kind, double reach, ofg::verified::Cache& cache, Tally& tally) {
+const char* one(Random& r, const Hull& a, const Hull& b, const Faces* faces, const Kind& kind,
+                double reach, ofg::verified::Cache& cache, Tally& tally) {
   const double far = whole(r, 0, 5) ? 0 : std::round(std::pow(10, uniform(r, 0, 6)));
   ofg::Pose p = pose(r, kind, reach, far), q = pose(r, kind, reach, far);
   if (whole(r, 0, 3) == 0) std::copy_n(q.q, 4, p.q);  // whose faces and edges are parallel
   if (whole(r, 0, 2)) move_to_touch(r, a, b, kind, reach, p, q, tally);
   bool hit = false;
   if (const char* f = answer(a, b, p, q, cache, tally, hit)) return f;
-  const judge::Says says = kind.small ? judged(a, b, p, q) : by_faces(s, t, p, q);
+  const judge::Says says = faces ? (*faces)(p, q) : judged(a, b, p, q);
   tally.hits += hit, tally.near += says == judge::Says::near, tally.large += !kind.small;
   if (says == judge::Says::hit && !hit) return "a miss";
   if (says == judge::Says::clear && hit) return "a false alarm";
   return nullptr;
 }
 
-// Boxes that lie face on face, turned together by (1, 2, 3, 4), but for one corner that sticks out
-// of its box by one step of a double: less than doubles see of it once it is turned. In thirtieths
-// the matrix is whole, so that the faces touch exactly.
-const char* corner_by_corner() {
-  const double columns[3][3] = {{-20, 20, 10}, {4, -10, 28}, {22, 20, 4}};
-  std::vector<ofg::Vec3<double>> box;
-  for (int i = 0; i < 8; ++i)
-    box.push_back({i & 1 ? 30.0 : -30.0, i & 2 ? 30.0 : -30.0, i & 4 ? 30.0 : -30.0});
-  const Hull plain(box, {});
-  for (int axis = 0; axis < 3; ++axis)
+// Boxes that lie face on face, turned together by a quaternion of whole numbers, but for one corner
+// that sticks out of its box by one step of a double, or lacks one: doubles cannot tell once it is
+// turned. The boxes reach |q|^2 from their centres, so that places of exact contact are whole.
+const char* corner_by_corner(Random& r) {
+  for (int turns = 0; turns < 60; ++turns) {
+    const int w = whole(r, 1, 9), x = whole(r, 1, 9), y = whole(r, 1, 9), z = whole(r, 1, 9);
+    const double half = w * w + x * x + y * y + z * z;
+    const int columns[3][3] = {
+        {w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)},
+        {2 * (x * y - w * z), w * w - x * x + y * y - z * z, 2 * (y * z + w * x)},
+        {2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z}};
+    std::vector<ofg::Vec3<double>> box;
     for (int i = 0; i < 8; ++i)
-      for (const double by : {-1.0, 1.0}) {
-        auto odd = box;
-        double& c = axis == 0   ? odd[std::size_t(i)].x
-                    : axis == 1 ? odd[std::size_t(i)].y
-                                : odd[std::size_t(i)].z;
-        const double side = c > 0 ? 2 : -2;
-        c = std::nextafter(c, by * c * 2);
-        ofg::Pose p, q;
-        for (auto* pose : {&p, &q})
-          for (int k = 0; k < 4; ++k) pose->q[k] = k + 1;
-        q.p = ofg::Vec3<double>(columns[axis][0], columns[axis][1], columns[axis][2]) * side;
-        if (ofg::verified::overlap(Hull(odd, {}), plain, p, q).hit != (by > 0))
-          return "a corner out by one step of a double";
-      }
+      box.push_back({i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half});
+    const Hull plain(box, {});
+    const int axis = whole(r, 0, 2), i = whole(r, 0, 7), by = whole(r, 0, 1) ? 1 : -1;
+    auto odd = box;
+    auto& corner = odd[std::size_t(i)];
+    double& c = axis == 0 ? corner.x : axis == 1 ? corner.y : corner.z;
+    const int side = c > 0 ? 2 : -2;
+    c = std::nextafter(c, by * c * 2);
+    const ofg::Pose p{{double(w), double(x), double(y), double(z)}, {}};
+    ofg::Pose q = p;
+    const int* way = columns[axis];
+    q.p = {double(side * way[0]), double(side * way[1]), double(side * way[2])};
+    const Hull other(odd, {});
+    if (ofg::verified::overlap(other, plain, p, q).hit != (by > 0) ||
+        ofg::verified::overlap(plain, other, q, p).hit != (by > 0))
+      return "a corner out by one step of a double";
+  }
   return nullptr;
 }
 
@@ -205,7 +223,7 @@ int main(int argc, char** argv) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   Tally tally;
-  if (const char* f = corner_by_corner()) {
+  if (const char* f = corner_by_corner(random)) {
     std::printf("%s\n", f);
     return 1;
   }
@@ -225,10 +243,11 @@ int main(int argc, char** argv) {
       ++tally.flat;
       continue;
     }
+    const auto faces = kind.small ? nullptr : std::make_unique<const Faces>(s, t);
     ofg::verified::Cache cache;
     const double reach = a.radius + b.radius + ofg::length(a.centre) * 1e-3;
     for (int i = 0; i < 20 && tally.done < queries; ++i, ++tally.done) {
-      if (const char* f = one(random, a, b, s, t, kind, reach, cache, tally)) {
+      if (const char* f = one(random, a, b, faces.get(), kind, reach, cache, tally)) {
         std::printf("query %ld of seed %llu: %s (bodies:%s%s; scale %g; vertices %d, %d)\n",
                     tally.done, seed, f, kind.grid ? " on a grid" : "", kind.words.c_str(), scale,
                     a.size(), b.size());

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // An answer to "do the interiors of two convex hulls meet?" that shares nothing with verified.hpp:
 // every plane that three vertices of one body or an edge of each can span is tried, in doubles and,
 // where these are not sure, in 113 bits.

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Part of kernels_body.hpp, compiled once per instruction set under the same rules: a portal
 // through the vertices that oppose each other, of one pair. What it answers holds up to the pair's
 // `gap`, which is more than single precision is off by; where that leaves a doubt it does not

@@ -1,3 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
 // Part of kernels_body.hpp, compiled once per instruction set under the same rules: the portal of
 // portal_body.hpp for as many pairs as a register has lanes, with proofs on both sides.
 
