@@ -69,10 +69,15 @@ def run(
 
 def _config_as_recorded(store: Store) -> bool:
     """Whether config.json is the file that the manifest of a finished run recorded."""
-    path = store.folder / "config.json"
-    if not path.is_file() or not store.has("manifest.json"):
+    try:
+        recorded = facts(store).get("sha256", {}).get("config.json")
+        return recorded == manifest.digest(store.folder / "config.json")
+    except (
+        OSError,
+        ValueError,
+        StoreError,
+    ):  # no run yet, or one whose damage `held` repairs or names
         return False
-    return facts(store).get("sha256", {}).get("config.json") == manifest.digest(path)
 
 
 def begin(store: Store, config: RunConfig) -> None:

@@ -68,9 +68,9 @@ def test_an_absent_optional_engine_fails_no_experiment(name, monkeypatch):
 @pytest.mark.parametrize(
     "change, words",
     [
-        ({"scenarios": ["deep"]}, "its scenario 'deep' is not one of the run"),
+        ({"scenarios": ["deep"]}, "the scenario 'deep' is not in the run"),
         ({"question": "turning"}, "there is no question 'turning'"),
-        ({"columns": "colour"}, "nor a tag of its scenarios .aim, aligned, feature."),
+        ({"columns": "colour"}, "or a tag of its scenarios .aim, aligned, feature."),
         ({"value": "net time"}, "needs times"),
     ],
 )

@@ -270,7 +270,7 @@ def test_a_run_and_its_reference_from_before_compare_as_identical(folder, tmp_pa
     for name in piece_truth.FILES:
         before.path(name).unlink()
     assert comparing.compare(before, Store(folder)).identical
-    assert "judged by the meshes" in " ".join(capfd.readouterr().err.split())
+    assert "judged by the labels of the meshes" in " ".join(capfd.readouterr().err.split())
 
 
 def test_a_reference_keeps_the_truth_of_the_pieces(folder, tmp_path):

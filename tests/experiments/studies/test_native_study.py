@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from baselines import native
-from experiments.cli import app
+from experiments.cli.app import app
 from experiments.publish.report import lanes
 from experiments.run.folder.store import Store, StoreError
 from experiments.studies.native import certified, saving, synthetic, twins
@@ -229,7 +229,7 @@ def test_the_command_says_in_a_line_what_it_lacks(monkeypatch):
 def test_a_folder_that_is_no_run_is_named():
     """It was said to be a run that is not finished, after everything had been built."""
     done = CliRunner().invoke(app, ["native", "nowhere"])
-    assert isinstance(done.exception, StoreError) and "no run folder" in str(done.exception)
+    assert isinstance(done.exception, StoreError) and "not a run folder" in str(done.exception)
 
 
 def test_the_report_shows_what_the_study_found_of_a_run(tmp_path):
