@@ -2,20 +2,21 @@
 #
 # SPDX-License-Identifier: MIT
 
-"""Methods of the Python lane and contestants of the native one that are the same configuration."""
+"""Which native configurations and which methods are the same configuration of an engine."""
 
 from __future__ import annotations
 
 import pandas as pd
 
 from baselines import registry
+from baselines.label import name_of
 
 from .measuring import CONTESTANT
 
 
 def key(label: str) -> tuple | None:
     """The method and all its parameters, whichever of them the label names; None for no method."""
-    if label.split(" ")[0] not in registry.methods():
+    if name_of(label) not in registry.methods():
         return None
     try:
         made = registry.make(label)
