@@ -32,6 +32,7 @@ from time import perf_counter_ns
 
 import numpy as np
 import pandas as pd
+import psutil
 
 from baselines import registry
 from experiments.cases.case import Case
@@ -44,7 +45,7 @@ from .folder import manifest, origin
 from .folder.rows import cases_of
 from .folder.shard import Shard
 from .folder.store import Store
-from .processes.pool import Task, mark, run
+from .processes.pool import MEMORY, Task, mark, run
 from .progress import stage
 
 SITUATIONS = ("deep", "near", "apart", "hit", "clear")  # see situation_of
@@ -57,6 +58,10 @@ SIZES = (
 )
 NEAR = 1e-2  # of gap over size: cases closer to contact are timed separately
 LEAST_ROUNDS = 3
+#: share of the machine's memory that the process that times may take. It keeps every prepared case
+#: of a bin, and a MuJoCo model alone reserves 28 MB: 48 cases of six methods are 8 GB, of which
+#: little is ever touched.
+SHARE = 0.5
 START = 1.2  # seconds: a process that imports every engine (0.8 in `quick`, 2.3 in `standard`)
 COLUMNS = ["question", "faces", "situation", "method", "case", "build_ns", "rounds_ns"]
 Times = tuple[str, str, str, str, str, int, list[int]]  #: a row of COLUMNS
@@ -236,7 +241,14 @@ def measure_bin(store: Store, config: RunConfig, bin_: Bin, seconds: float) -> l
             lambda item, loss: Lost(loss.mark, f"{loss.status}, {loss.detail}"),
         )
         # one worker: no other process of ours runs while times are measured
-        run([task], 1, seconds, store.path("workers.log"), prepare=partial(load_files, config))
+        run(
+            [task],
+            1,
+            seconds,
+            store.path("workers.log"),
+            prepare=partial(load_files, config),
+            memory=max(MEMORY, int(SHARE * psutil.virtual_memory().total)),
+        )
         if not isinstance(found[0], Lost):
             return found[0] + lost
         label, why = found[0].label, found[0].why
