@@ -18,6 +18,7 @@
 #include "ofg/batch.hpp"
 #include "ofg/brute_force.hpp"
 #include "returned.hpp"
+#include "spheres.hpp"
 #include "verified.hpp"
 
 namespace nb = nanobind;
@@ -311,6 +312,7 @@ NB_MODULE(_core, m) {
       .def_rw("earliest", &ofg::Options::earliest)
       .def_rw("screen", &ofg::Options::screen);
   verified::add_to(m);
+  spheres::add_to(m);
   nb::class_<Prepared>(m, "Prepared")
       .def(nb::init<nb::object, nb::object, Doubles, Doubles, const ofg::Options&, int, bool,
                     bool>(),
