@@ -26,7 +26,8 @@ from .rapier import RapierExact
 
 class BehindSpheres(Method):
     """Bounding spheres that are apart, or inscribed spheres that meet, settle a pair; the engine is
-    asked about the others. Put this class before the engine's.
+    asked about the others. Put this class before the engine's. Its net times are less the engine's
+    own floor: the spheres settle the query that gives a floor, and then no engine is called.
     """
 
     configuration = "alternative"
@@ -42,30 +43,37 @@ class BehindSpheres(Method):
 
 class SpheresFcl(BehindSpheres, FclConvexExact):
     name = "spheres-fcl-convex-exact"
+    floored = FclConvexExact
 
 
 class SpheresBullet(BehindSpheres, BulletNoMargin):
     name = "spheres-bullet-no-margin"
+    floored = BulletNoMargin
 
 
 class SpheresMujoco(BehindSpheres, MujocoExact):
     name = "spheres-mujoco-exact"
+    floored = MujocoExact
 
 
 class SpheresCoal(BehindSpheres, CoalConvexExact):
     name = "spheres-coal-convex-exact"
+    floored = CoalConvexExact
 
 
 class SpheresParry(BehindSpheres, ParryExact):
     name = "spheres-parry-exact"
+    floored = ParryExact
 
 
 class SpheresRapier(BehindSpheres, RapierExact):
     name = "spheres-rapier-exact"
+    floored = RapierExact
 
 
 class SpheresDrake(BehindSpheres, DrakeExact):
     name = "spheres-drake-exact"
+    floored = DrakeExact
 
 
 METHODS = [

@@ -14,10 +14,10 @@ out slower than k = 8 behind it). Turns do not alternate call by call, because e
 find the instruction cache full of another engine. The floor of a method is its own cheapest call
 (of n substeps: one) on two tetrahedra far apart, timed between its cases: the cost of the binding
 and of an early exit. A net time of n substeps therefore still contains the binding's cost of n - 1
-calls. A method that takes longer than `seconds` for its rounds of a bin takes part in fewer of
-them, spread evenly, but in at least 3; one that takes longer for a single round is warmed up once.
-Only cases that a method answered (status ok) are timed; building (`prepare`) is timed once per
-case.
+calls. An engine behind spheres has that engine's floor, as the spheres settle the query. A method
+that takes longer than `seconds` for its rounds of a bin takes part in fewer of them, spread evenly,
+but in at least 3; one that takes longer for a single round is warmed up once. Only cases that a
+method answered (status ok) are timed; building (`prepare`) is timed once per case.
 """
 
 from __future__ import annotations
@@ -375,7 +375,7 @@ def _prepare(label: str, bin_: Bin, answered: set[str]) -> list[Call]:
     with the caches in the same state.
     """
     (method,) = registry.make(label)
-    cheapest = type(method)(**{**method.parameters, **method.cheapest})
+    cheapest = method.floor()
     calls: list[Call] = []
     for case in (c for c in bin_.cases if c.id in answered):
         if len(calls) % 5 == 0:

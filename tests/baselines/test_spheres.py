@@ -40,4 +40,5 @@ def test_the_engine_is_asked_only_where_the_spheres_prove_nothing(distance, seed
 def test_each_is_the_best_effort_of_its_engine_on_convex_bodies(cls):
     peer = registry.methods()[cls.name.removeprefix("spheres-")]
     assert issubclass(cls, peer) and peer.configuration == "best effort"
+    assert type(cls().floor()) is peer
     assert cls.bodies == {"convex"} <= peer.bodies and cls.questions == peer.questions
