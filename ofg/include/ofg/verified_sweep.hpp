@@ -6,6 +6,7 @@
 #pragma once
 #include <algorithm>
 
+#include "verified_march.hpp"
 #include "verified_translation.hpp"
 
 namespace ofg::verified {
@@ -13,6 +14,7 @@ namespace ofg::verified {
 // Of two hulls over [0, until].
 inline Impact sweep(const Hull& a, const Hull& b, const Pose& pa, const Pose& pb, const Motion& ma,
                     const Motion& mb, double until = 1) {
+  if (ma.angle != 0 || mb.angle != 0) return march(a, b, pa, pb, ma, mb, until);
   return translation(a, b, pa, pb, ma.displacement, mb.displacement, until);
 }
 
