@@ -144,18 +144,56 @@ struct March {
   }
 
   // Apart until `from`, and there too near to tell: the next time at which they are proved to meet,
-  // or none.
-  void touching() {
-    if (from == 0 && at_start()) return;
+  // or none. True where they part again.
+  bool touching() {
+    if (from == 0 && (at_start() || (from = parting()) > 0)) return !impact.hit;
     for (double after = 0.9 * widest_bracket; from < end; after *= 2) {
       const Instant then = m.at(std::fmin(from + after, end));
       if (meets(then)) {
         impact.set(from, then.t), name(then, axis);
-        return;
+        return false;
       }
       if (then.t == end) break;
     }
     unproved();
+    return false;
+  }
+
+  // Hulls that touch at the start, clear as exact arithmetic says by a plane: until when their
+  // vertices near it all recede from it, and the others are too far to reach it. 0 if they do not.
+  double parting() {
+    Vec3<double> out;
+    if (meets_exactly(m.a, m.b, pose_a, pose_b, out)) return 0;
+    ++counts.steps;
+    const Instant now = m.at(0);
+    const Vec3<double> n = out * (-1 / length(out));
+    const Plane plane = Plane::fixed(Frame::world, n, now);
+    const double bound = plane.bound(m, 0, end, now),
+                 most = length(m.d) + std::abs(m.of_a.angle) * m.of_a.swing +
+                        std::abs(m.of_b.angle) * m.of_b.swing;
+    for (const double near : {1e-2, 1e-4, 1e-6, 1e-8}) {
+      const double rate = slowest(m.a, m.of_a, now.a, n, near) +
+                          slowest(m.b, m.of_b, now.b, -n, near) + dot(n, m.d) - 1e-12 * most;
+      if (!(rate > 0)) continue;
+      const double room = near - m.slack, until = std::fmin(room / (2 * most), rate / bound);
+      axis = n;
+      return std::fmin(std::fmin(until, std::sqrt(0.5 * room / bound)), end);
+    }
+    return 0;
+  }
+
+  // The least rate along n of a hull's vertices within `near` of the least along n, as it turns.
+  double slowest(const Hull& hull, const Turning& turning, const Mat3<double>& r,
+                 const Vec3<double>& n, double near) const {
+    const Vec3<double> in = r.transposed() * n,
+                       turn = r.transposed() * cross(n, turning.axis) * turning.angle;
+    double least = std::numeric_limits<double>::infinity(), rate = least;
+    for (int i = 0; i < hull.size(); ++i) least = std::fmin(least, dot(in, hull.point(i)));
+    for (int i = 0; i < hull.size(); ++i) {
+      if ((dot(in, hull.point(i)) - least) * m.unit > near) continue;
+      rate = std::fmin(rate, dot(turn, hull.point(i) * m.unit + turning.arm));
+    }
+    return rate;
   }
 
   void unproved() {
@@ -184,7 +222,11 @@ struct March {
       ++counts.steps;
       const double share = segment < 8 ? 0.5 : 0.99;
       const Apart apart = apart_at(m, now, axis, touch(), share, simplex, counts);
-      if (!apart.found) return touching();
+      if (!apart.found) {
+        if (!touching()) return;
+        now = m.at(from), simplex.n = 0;
+        continue;
+      }
       Gap g;
       const Plane plane = choose(now, apart, segment, g);
       const double f = g.along - m.slack, slope = plane.slope(m, now, g);
@@ -201,7 +243,7 @@ struct March {
       }
       now = sure == 1 ? then : m.at(from);
       axis = plane.normal(now);
-      if (!(from > before)) return touching();
+      if (!(from > before) && !touching()) return;
     }
     unproved();
   }
