@@ -69,9 +69,11 @@ def verified_sweep_many(
         (motions_a, Motion, "motions_a"),
         (motions_b, Motion, "motions_b"),
     )
-    rows = broadcast([rows_of(*each) for each in given])
-    answers, latest, proved = _core.verified_sweep_many(hulls(a, "a"), hulls(b, "b"), *rows, count)
-    return Impacts(*answers, "none", latest, proved)
+    at_a, at_b, along_a, along_b = broadcast([rows_of(*each) for each in given])
+    (hit, time, found, faces, pieces, counts), latest, proved = _core.verified_sweep_many(
+        hulls(a, "a"), hulls(b, "b"), at_a, at_b, along_a, along_b, count
+    )
+    return Impacts(hit, time, found, faces, pieces, counts, "none", latest, proved)
 
 
 def prepare_verified_sweep(query: Query) -> _core.PreparedVerifiedSweep:

@@ -26,8 +26,7 @@ inline nb::tuple in_arrays(const std::vector<Impact>& impacts) {
   bool* proved;
   auto all_latest = returned::array<double>({n}, latest);
   auto all_proved = returned::array<bool>({n}, proved);
-  for (std::size_t i = 0; i < n; ++i)
-    latest[i] = impacts[i].latest, proved[i] = impacts[i].proved;
+  for (std::size_t i = 0; i < n; ++i) latest[i] = impacts[i].latest, proved[i] = impacts[i].proved;
   const std::vector<ofg::Answer> answers(impacts.begin(), impacts.end());
   return nb::make_tuple(returned::in_arrays(answers), all_latest, all_proved);
 }
@@ -45,11 +44,10 @@ inline nb::tuple ask_many(const verified::Hulls& a, const verified::Hulls& b, Do
     nb::gil_scoped_release released;
     returned::in_parts(n, threads, [&](std::size_t from, std::size_t to) {
       for (std::size_t i = from; i < to; ++i)
-        impacts[i] = ofg::verified::sweep(a.pieces, b.pieces,
-                                          returned::pose_of(pa.data() + pose_columns * i),
-                                          returned::pose_of(pb.data() + pose_columns * i),
-                                          motion_of(ma.data() + motion_columns * i),
-                                          motion_of(mb.data() + motion_columns * i));
+        impacts[i] = ofg::verified::sweep(
+            a.pieces, b.pieces, returned::pose_of(pa.data() + pose_columns * i),
+            returned::pose_of(pb.data() + pose_columns * i),
+            motion_of(ma.data() + motion_columns * i), motion_of(mb.data() + motion_columns * i));
     });
   }
   return in_arrays(impacts);

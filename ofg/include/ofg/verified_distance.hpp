@@ -80,8 +80,7 @@ struct Simplex {
     Vec3<double> best;
     double least = std::numeric_limits<double>::infinity();
     for (const auto& s : side) {
-      const Vec3<double> o = whole.p[s[0]].w,
-                         m = cross(whole.p[s[1]].w - o, whole.p[s[2]].w - o);
+      const Vec3<double> o = whole.p[s[0]].w, m = cross(whole.p[s[1]].w - o, whole.p[s[2]].w - o);
       const double origin = -dot(m, o), fourth = dot(m, whole.p[s[3]].w - o);
       if ((origin > 0 && fourth > 0) || (origin < 0 && fourth < 0)) continue;
       Simplex f;

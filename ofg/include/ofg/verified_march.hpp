@@ -168,9 +168,9 @@ struct March {
     const Instant now = m.at(0);
     const Vec3<double> n = out * (-1 / length(out));
     const Plane plane = Plane::fixed(Frame::world, n, now);
-    const double bound = plane.bound(m, 0, end, now),
-                 most = length(m.d) + std::abs(m.of_a.angle) * m.of_a.swing +
-                        std::abs(m.of_b.angle) * m.of_b.swing;
+    const double bound = plane.bound(m, 0, end, now), most = length(m.d) +
+                                                             std::abs(m.of_a.angle) * m.of_a.swing +
+                                                             std::abs(m.of_b.angle) * m.of_b.swing;
     for (const double near : {1e-2, 1e-4, 1e-6, 1e-8}) {
       const double rate = slowest(m.a, m.of_a, now.a, n, near) +
                           slowest(m.b, m.of_b, now.b, -n, near) + dot(n, m.d) - 1e-12 * most;

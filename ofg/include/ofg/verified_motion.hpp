@@ -107,8 +107,7 @@ struct Moving {
     d = back * (ma.displacement - mb.displacement) * unit;
     const double angle = std::abs(ma.angle) + std::abs(mb.angle);
     const double lengths = (length(pivot_a) + length(pivot_b) + length(way)) * unit + length(d) +
-                           of_a.reach + of_b.reach +
-                           (length(a.centre) + length(b.centre)) * unit;
+                           of_a.reach + of_b.reach + (length(a.centre) + length(b.centre)) * unit;
     slack = (256 + 4 * angle) * unit_roundoff * lengths;
     away = (a.off_centre + b.off_centre) * unit;
     sure = a.radius + b.radius > 1e-100 && lengths < 1e60 && slack < 1e-3;

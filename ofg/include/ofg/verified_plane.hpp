@@ -36,7 +36,8 @@ struct Plane {
   // Bound on the second derivative of n(t) . (x - y), x a point of A and y one of B, over [s, e].
   // With k the axes of rotation, x = P_A + R_A r, y = P_B + R_B s and w = x - y:
   // - fixed: of A |angle_A|^2 |n x k_A| |k_A x r|, and B's likewise;
-  // - turning with A: n . R_A r is constant. (n . (P_A - y))'' = n'' . (P_A - y) + 2 n' . (P_A - y)'
+  // - turning with A: n . R_A r is constant. (n . (P_A - y))'' = n'' . (P_A - y) + 2 n' . (P_A -
+  // y)'
   //   + n . y'', where n'' and n' are at right angles to k_A and of lengths |angle_A|^2 |n x k_A|
   //   and |angle_A| |n x k_A|;
   // - edges, with u_A and u_B the turned edges: n . w = u_B . R_A (r x e_A) - u_A . R_B (e_B x s)
@@ -53,8 +54,7 @@ struct Plane {
     }
     const Vec3<double> u = normal(now);
     const auto part = [&](const Vec3<double>& k) { return length(cross(u, k)) + rounded; };
-    if (frame == Frame::world)
-      return up * (turned(a, part(a.axis)) + turned(b, part(b.axis)));
+    if (frame == Frame::world) return up * (turned(a, part(a.axis)) + turned(b, part(b.axis)));
     // Turning with one body: `far` bounds the other's points seen from the line about which it
     // turns.
     const Turning &own = frame == Frame::with_a ? a : b, &other = frame == Frame::with_a ? b : a;

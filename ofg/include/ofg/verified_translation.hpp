@@ -20,7 +20,7 @@ struct Shot {
   const Vec3<double>&way_a, &way_b;  // displacements, in the world
   Posed at;                          // at the start; slack covers the displacement too
   Vec3<double> d;                    // of A relative to B in B's axes, in units of `at`
-  double until;  // what comes later is not asked about
+  double until;                      // what comes later is not asked about
   Impact& impact;
   Counts& counts = impact.counts;
   double sure = -1;     // proved clear until then, if not negative
@@ -220,8 +220,7 @@ struct Shot {
 // the step [0, 1]; in a bracket that is proved to hold that time. A clear is one of [0, until].
 // Every answer is proved. Hulls that are flat have no interior; do not ask.
 inline Impact translation(const Hull& a, const Hull& b, const Pose& pa, const Pose& pb,
-                          const Vec3<double>& way_a, const Vec3<double>& way_b,
-                          double until = 1) {
+                          const Vec3<double>& way_a, const Vec3<double>& way_b, double until = 1) {
   Impact impact;
   impact.counts.steps = 1;
   detail::Shot(a, b, pa, pb, way_a, way_b, until, impact).run();
