@@ -5,6 +5,7 @@
 // An axis along which two hulls are apart at one time (Gilbert, Johnson and Keerthi 1988), and the
 // features that are nearest.
 #pragma once
+#include "answer.hpp"
 #include "verified_motion.hpp"
 
 namespace ofg::verified {
