@@ -121,7 +121,36 @@ struct March {
     return (slope < 0 ? 0.7 : 0.75) * std::sqrt(8 * f / bound);
   }
 
+  // Do the nearest features, carried on to a time at which they have passed each other, and a point
+  // inside hold the origin? Of two edges both halves of the parallelogram that they span are tried.
+  bool passed(const Instant& now) {
+    if (simplex.n < 2) return false;
+    const double margin = m.slack + m.away;
+    const Vec3<double> v0 = now.between + beside(m.a, m.b, 0) * m.unit;
+    const auto between = [&](const Gap& of_a, const Gap& of_b) {
+      return (now.a * of_a.a - now.b * of_b.b) * m.unit + now.between;
+    };
+    const auto holds = [&](const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& r) {
+      ++counts.face_pairs;
+      const Vec3<double> v[4] = {v0, p, q, r};
+      return holds_origin(v, margin);
+    };
+    const Gap(&s)[4] = simplex.p;
+    if (simplex.n == 3 && holds(between(s[0], s[0]), between(s[1], s[1]), between(s[2], s[2])))
+      return true;
+    const Gap *a = nullptr, *b = nullptr;  // the other ends of the edges from the first corner
+    for (int i = 1; i < simplex.n; ++i) {
+      if (!a && !(s[i].a == s[0].a)) a = &s[i];
+      if (!b && !(s[i].b == s[0].b)) b = &s[i];
+    }
+    if (!a || !b) return false;
+    const Vec3<double> p = between(s[0], s[0]), q = between(*a, s[0]), r = between(*a, *b),
+                       t = between(s[0], *b);
+    return holds(p, q, r) || holds(p, r, t);
+  }
+
   bool meets(const Instant& now) {
+    if (passed(now)) return true;
     const Posed at = m.posed(now);
     const int starts = m.a.inner + m.b.inner > 0 ? most_starts : 1;
     for (int i = 0; i < starts; ++i) {
