@@ -261,7 +261,8 @@ struct March {
       const double f = g.along - m.slack, slope = plane.slope(m, now, g);
       const double h = reach(f, slope, plane.bound(m, from, end, now), segment);
       const Instant then = m.at(std::fmin(from + h, end));
-      const double at_then = height(plane, then).along - m.slack, step = then.t - from;
+      const Gap ended = height(plane, then);
+      const double at_then = ended.along - m.slack, step = then.t - from;
       const double sure = sure_share(f, at_then, plane.bound(m, from, then.t, now), step);
       const double before = from;
       from = sure == 1 ? then.t : from + sure * step;
@@ -272,6 +273,7 @@ struct March {
       }
       now = sure == 1 ? then : m.at(from);
       axis = plane.normal(now);
+      simplex.add(ended);
       if (!(from > before) && !touching()) return;
     }
     unproved();

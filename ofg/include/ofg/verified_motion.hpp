@@ -83,6 +83,7 @@ struct Instant {
 // `slack` is 256 + 4 |angle| units of all these lengths.
 struct Moving {
   const Hull &a, &b;
+  const ExtremeLists *lists_a, *lists_b;
   Turning of_a, of_b;
   Vec3<double> p, d;
   double unit = 1, slack = 0, away = 0;
@@ -90,7 +91,7 @@ struct Moving {
 
   Moving(const Hull& a_, const Hull& b_, const Pose& pa, const Pose& pb, const Motion& ma,
          const Motion& mb)
-      : a(a_), b(b_) {
+      : a(a_), b(b_), lists_a(a.extreme_lists()), lists_b(b.extreme_lists()) {
     unit = unit_of(a.radius + b.radius);
     const Mat3<double> ra = rotation(pa.q), rb = rotation(pb.q), back = rb.transposed();
     const auto turning = [&](const Hull& hull, const Mat3<double>& r, const Motion& m) {
@@ -131,6 +132,22 @@ struct Moving {
   }
 };
 
+// A vertex of each hull, relative to its centre and in its axes.
+struct Ends {
+  Vec3<double> a, b;
+};
+
+// The vertex of A least along in_a and that of B farthest along in_b, in the hulls' axes.
+inline Ends least_apart(const Hull& a, const ExtremeLists* lists_a, const Vec3<double>& in_a,
+                        const Hull& b, const ExtremeLists* lists_b, const Vec3<double>& in_b) {
+  const double axis_a[3] = {in_a.x, in_a.y, in_a.z}, axis_b[3] = {-in_b.x, -in_b.y, -in_b.z};
+  const CloudView<double> of_a = lists_a ? lists_a->along(-in_a) : a.cloud.view(),
+                          of_b = lists_b ? lists_b->along(in_b) : b.cloud.view();
+  double points[6];
+  kernels<double>.extremes(of_a, axis_a, of_b, axis_b, points);
+  return {{points[0], points[1], points[2]}, {points[3], points[4], points[5]}};
+}
+
 // A vertex of each hull, relative to its centre and in its axes, least apart along an axis n from B
 // to A: where the gap along n is more than slack |n|, the hulls are apart.
 struct Gap {
@@ -140,13 +157,16 @@ struct Gap {
 };
 
 inline Gap gap(const Moving& m, const Instant& now, const Vec3<double>& n) {
-  static constexpr double zero[lanes<double>] = {};
-  static constexpr CloudView<double> origin{zero, zero, zero, lanes<double>};
-  const Vec3<double> in_a = now.a.transposed() * n, in_b = now.b.transposed() * n;
+  // The rows of a matrix, each times a component: its transpose times n.
+  const auto in = [&](const Mat3<double>& r) {
+    return r.row[0] * n.x + r.row[1] * n.y + r.row[2] * n.z;
+  };
+  const Vec3<double> in_a = in(now.a), in_b = in(now.b);
+  const Ends ends = least_apart(m.a, m.lists_a, in_a, m.b, m.lists_b, in_b);
   Gap g;
-  g.a = ofg::support(m.a.cloud.view(), origin, in_a);
-  g.b = ofg::support(m.b.cloud.view(), origin, -in_b);
+  g.a = ends.a, g.b = ends.b;
   g.w = (now.a * g.a - now.b * g.b) * m.unit + now.between;
+  // By the products that chose the vertices: n . w would count the choice's rounding twice.
   g.along = (dot(in_a, g.a) - dot(in_b, g.b)) * m.unit + dot(n, now.between);
   return g;
 }
