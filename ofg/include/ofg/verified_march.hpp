@@ -56,7 +56,9 @@ struct March {
     }
     if (!(size > 0)) return false;
     const Plane plane = Plane::fixed(Frame::world, middle.between * (1 / size), middle);
-    const double at_from = height(plane, m.at(from)).along - m.slack;
+    const Gap first = height(plane, m.at(from));
+    simplex.add(first);
+    const double at_from = first.along - m.slack;
     if (!(at_from > 0)) return false;
     const double at_end = height(plane, m.at(end)).along - m.slack, h = end - from;
     const double share = sure_share(at_from, at_end, plane.bound(m, from, end, middle), h);
@@ -240,6 +242,13 @@ struct March {
     return start.hit;
   }
 
+  // Is the plane that of a vertex at a face, or of two edges?
+  bool fits(const Plane& plane) const {
+    if (plane.frame == Frame::edges) return true;
+    return simplex.n == 3 && (simplex.kinds([](const Gap& x) { return x.a; }) == 1 ||
+                              simplex.kinds([](const Gap& x) { return x.b; }) == 1);
+  }
+
   void run() {
     if (!m.sure) {
       if (!at_start()) unproved();
@@ -247,17 +256,21 @@ struct March {
     }
     if (!window() || passes()) return;
     Instant now = m.at(from);
+    Plane plane;
+    Gap g;
+    bool goes_on = false;  // with the same plane: Newton's method is at work on it
     for (int segment = 0; segment < most_segments; ++segment) {
       ++counts.steps;
-      const double share = segment < 8 ? 0.5 : 0.99;
-      const Apart apart = apart_at(m, now, axis, touch(), share, simplex, counts);
-      if (!apart.found) {
-        if (!touching()) return;
-        now = m.at(from), simplex.n = 0;
-        continue;
+      if (!goes_on) {
+        const double share = segment < 8 ? 0.5 : 0.99;
+        const Apart apart = apart_at(m, now, axis, touch(), share, simplex, counts);
+        if (!apart.found) {
+          if (!touching()) return;
+          now = m.at(from), simplex.n = 0;
+          continue;
+        }
+        plane = choose(now, apart, segment, g);
       }
-      Gap g;
-      const Plane plane = choose(now, apart, segment, g);
       const double f = g.along - m.slack, slope = plane.slope(m, now, g);
       const double h = reach(f, slope, plane.bound(m, from, end, now), segment);
       const Instant then = m.at(std::fmin(from + h, end));
@@ -271,10 +284,13 @@ struct March {
         impact.set(from, then.t), name(then, plane.normal(then));
         return;
       }
-      now = sure == 1 ? then : m.at(from);
+      goes_on = sure == 1 && slope < 0 && at_then > 0 && at_then < 0.02 * f && fits(plane);
+      now = sure == 1 ? then : m.at(from), g = ended;
       axis = plane.normal(now);
-      simplex.add(ended);
-      if (!(from > before) && !touching()) return;
+      if (!goes_on) simplex.add(ended);
+      if (from > before) continue;
+      if (!touching()) return;
+      now = m.at(from), simplex.n = 0, goes_on = false;
     }
     unproved();
   }
