@@ -25,7 +25,8 @@ struct March {
   Simplex simplex{};
   Vec3<double> axis{};  // the first to try
 
-  double touch() const { return 2 * m.slack; }
+  // Gaps of planes of every kind are worth something above it.
+  double touch() const { return 3 * m.slack; }
 
   // The times at which the spheres about the pivots meet. False where there are none.
   bool window() {
@@ -50,7 +51,7 @@ struct March {
     const Instant middle = m.at(std::fmin(std::fmax(nearest, from), end));
     const double size = length(middle.between);
     axis = middle.between;
-    if (size + m.slack < (m.a.inner + m.b.inner) * m.unit) {
+    if (size + m.slack + m.away < (m.a.inner + m.b.inner) * m.unit) {
       end = middle.t, hit_at_end = true;
       return false;
     }
@@ -271,11 +272,11 @@ struct March {
         }
         plane = choose(now, apart, segment, g);
       }
-      const double f = g.along - m.slack, slope = plane.slope(m, now, g);
+      const double margin = plane.margin(m), f = g.along - margin, slope = plane.slope(m, now, g);
       const double h = reach(f, slope, plane.bound(m, from, end, now), segment);
       const Instant then = m.at(std::fmin(from + h, end));
       const Gap ended = height(plane, then);
-      const double at_then = ended.along - m.slack, step = then.t - from;
+      const double at_then = ended.along - margin, step = then.t - from;
       const double sure = sure_share(f, at_then, plane.bound(m, from, then.t, now), step);
       const double before = from;
       from = sure == 1 ? then.t : from + sure * step;

@@ -76,11 +76,18 @@ struct Instant {
   Vec3<double> between;  // from B's centre to A's
 };
 
-// A's pivot seen from B's is at p + t d. Besides what Posed counts (84 units of the lengths), the
-// matrices of a rotation are off by 30 units from the pose and 20 from the axis and the products,
-// the angle by 1 unit of itself, its sine and cosine by 2 units, their products and sums by 6: a
-// point by (60 + |angle|) units of its distance from the pivot, the pivots by 40 units of p and d.
-// `slack` is 256 + 4 |angle| units of all these lengths.
+// A's pivot seen from B's is at p + t d. How far what is computed may be from what is true, in
+// units u = 2^-53 (verified_pose.hpp counts those of poses):
+// - The matrix of a hull that turns: 70 u from the relative pose; 80 u from the axis, which is off
+//   by 40 u (30 u from the matrix that turns it, 6 u from sums, 4 u from its length); 10 u from
+//   products and sums, 2 u from sine and cosine, and |angle| u as the angle is off by 1 u of
+//   itself.
+// - A point: as much of its distance from the pivot, and 10 u from turning and adding it. The
+// pivots
+//   themselves: 75 u of those in the hulls' axes, 40 u of the way between the poses and of d.
+// `slack` is 256 + 4 |angle| units of all these lengths: more than a point is off, and than the gap
+// along an axis is that is known exactly. An axis that turns is off by 170 + |angle| u of itself,
+// one normal to two edges by twice as much: there the gap is worth twice slack (Plane::margin).
 struct Moving {
   const Hull &a, &b;
   const ExtremeLists *lists_a, *lists_b;

@@ -23,9 +23,7 @@ struct Query {
   const Hull *a, *b;
   ofg::Pose pose_a, pose_b;
   ofg::Motion by_a, by_b;
-  Impact operator()() const {
-    return ofg::verified::sweep(*a, *b, pose_a, pose_b, by_a, by_b);
-  }
+  Impact operator()() const { return ofg::verified::sweep(*a, *b, pose_a, pose_b, by_a, by_b); }
 };
 
 double uniform(Random& r, double a, double b) {
@@ -98,7 +96,10 @@ int main(int argc, char** argv) {
   const struct {
     const char* name;
     int rings, sides;
-  } kinds[] = {{"12 cube", 0, 0}, {"12 hull", 2, 6}, {"80 hull", 6, 8}, {"320 hull", 11, 16},
+  } kinds[] = {{"12 cube", 0, 0},
+               {"12 hull", 2, 6},
+               {"80 hull", 6, 8},
+               {"320 hull", 11, 16},
                {"1280 hull", 21, 32}};
   std::printf("ns, hits / misses; segments, supports of hits\n");
   for (const auto& kind : kinds) {
