@@ -150,9 +150,10 @@ inline Ends least_apart(const Hull& a, const ExtremeLists* lists_a, const Vec3<d
   const double axis_a[3] = {in_a.x, in_a.y, in_a.z}, axis_b[3] = {-in_b.x, -in_b.y, -in_b.z};
   const CloudView<double> of_a = lists_a ? lists_a->along(-in_a) : a.cloud.view(),
                           of_b = lists_b ? lists_b->along(in_b) : b.cloud.view();
-  double points[6];
-  kernels<double>.extremes(of_a, axis_a, of_b, axis_b, points);
-  return {{points[0], points[1], points[2]}, {points[3], points[4], points[5]}};
+  int at[2];
+  kernels<double>.extremes(of_a, axis_a, of_b, axis_b, at);
+  const auto [i, j] = at;
+  return {{of_a.x[i], of_a.y[i], of_a.z[i]}, {of_b.x[j], of_b.y[j], of_b.z[j]}};
 }
 
 // A vertex of each hull, relative to its centre and in its axes, least apart along an axis n from B

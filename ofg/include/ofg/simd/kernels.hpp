@@ -151,7 +151,7 @@ struct Kernels {
   void (*prove)(const SupportView& a, const SupportView& b, const PosedPairs&, int n,
                 const float* inside, Proved&);
   void (*extremes)(const CloudView<T>& a, const T* axis_a, const CloudView<T>& b, const T* axis_b,
-                   T* points);
+                   int* at);
 };
 
 }  // namespace ofg
