@@ -273,7 +273,9 @@ struct March {
         plane = choose(now, apart, segment, g);
       }
       const double margin = plane.margin(m), f = g.along - margin, slope = plane.slope(m, now, g);
-      const double h = reach(f, slope, plane.bound(m, from, end, now), segment);
+      // As the bound grows with the interval, it is that of one about as long.
+      double h = reach(f, slope, plane.bound(m, from, from, now), segment);
+      h = reach(f, slope, plane.bound(m, from, std::fmin(from + h, end), now), segment);
       const Instant then = m.at(std::fmin(from + h, end));
       const Gap ended = height(plane, then);
       const double at_then = ended.along - margin, step = then.t - from;
