@@ -61,7 +61,8 @@ struct Shot {
     ++counts.full_tests;
     const double gap = -s.height - at.slack * length(n), speed = dot(n, d);
     if (!(gap > 0)) return false;
-    // The quotient is off by a few units of itself: by less than the rest of slack.
+    // The speed is off by 43 units of |n| |d|, for which slack has room, the quotient by a few
+    // units of itself.
     sure = std::fmax(sure, speed > gap ? gap / speed * (1 - 8 * unit_roundoff) : 1.0);
     return sure >= until;
   }
@@ -134,6 +135,7 @@ struct Shot {
   bool meets(double t, const Support (&v)[3]) {
     Posed then = at;
     then.between = at.between + d * t;
+    then.slack *= std::fmax(1.0, std::abs(t));  // it counts d once, and `over` asks about the past
     const Vec3<double> c[4] = {inside + d * t, v[0].point + d * t, v[1].point + d * t,
                                v[2].point + d * t};
     ++counts.face_pairs;

@@ -3,7 +3,8 @@
 // SPDX-License-Identifier: MIT
 
 // Nanoseconds a sweep of verified OFG: medians over passes of 512 random pairs a cell whose spheres
-// meet on the way, hits and misses apart. Usage: bench_sweep [passes].
+// meet on the way, hits and misses apart. Usage: bench_sweep [passes] [isa],
+// with isa 0, 1 or 2 for SSE2, AVX2 or AVX-512.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -92,6 +93,7 @@ double nanoseconds(const std::vector<Query>& all, int passes) {
 
 int main(int argc, char** argv) {
   const int passes = argc > 1 ? std::atoi(argv[1]) : 15;
+  if (argc > 2 && !ofg::set_isa(ofg::Isa(std::atoi(argv[2])))) return 1;
   Random random(1);
   const struct {
     const char* name;
