@@ -48,8 +48,8 @@ MUTANTS = {
     "no margin": (MOTION, "slack = (256 + 4 * angle)", "slack = (0 * angle)"),
     "the late Newton": (
         MARCH,
-        "impact.set(from, then.t), name(then, plane",
-        "impact.set(then.t, then.t), name(then, plane",
+        "impact.set(from, then.t), name(then, at.plane",
+        "impact.set(then.t, then.t), name(then, at.plane",
     ),
     "no overlap at the end of a bracket": (MARCH, "&& meets(then)) {", ") {"),
     "the start not asked exactly": (

@@ -21,7 +21,7 @@ struct March {
   Impact& impact;
   Counts& counts = impact.counts;
   double from = 0, end;  // clear until the one; after the other too
-  bool hit_at_end = false;
+  bool hit_at_end = false, done = false;
   Simplex simplex{};
   Vec3<double> axis{};  // the first to try
 
@@ -250,52 +250,69 @@ struct March {
                               simplex.kinds([](const Gap& x) { return x.b; }) == 1);
   }
 
+  // Where the march stands: a plane that separates `now`, and its gap there.
+  struct Stand {
+    Instant now;
+    Plane plane{};
+    Gap gap{};
+    bool goes_on = false;  // with the same plane: Newton's method is at work on it
+  };
+
+  // A new plane. False where the hulls are too near for one.
+  bool find(Stand& at, int segment) {
+    const double share = segment < 8 ? 0.5 : 0.99;
+    const Apart apart = apart_at(m, at.now, axis, touch(), share, simplex, counts);
+    if (apart.found)
+      at.plane = choose(at.now, apart, segment, at.gap);
+    else
+      touched(at);
+    return apart.found;
+  }
+
+  void touched(Stand& at) {
+    done = !touching();
+    at = {m.at(from)}, simplex.n = 0;
+  }
+
+  // Carries the proof on by the plane, until which time it is sure, or to the contact.
+  void advance(Stand& at, int segment) {
+    const double margin = at.plane.margin(m), f = at.gap.along - margin,
+                 slope = at.plane.slope(m, at.now, at.gap), before = from;
+    const auto bound = [&](double to) { return at.plane.bound(m, before, to, at.now); };
+    // As the bound grows with the interval, it is that of one about as long.
+    double h = reach(f, slope, bound(from), segment);
+    h = reach(f, slope, bound(std::fmin(from + h, end)), segment);
+    const Instant then = m.at(std::fmin(from + h, end));
+    const Gap ended = height(at.plane, then);
+    const double at_then = ended.along - margin, step = then.t - from,
+                 sure = sure_share(f, at_then, bound(then.t), step);
+    from = sure == 1 ? then.t : from + sure * step;
+    done = sure == 1 && then.t == end;
+    if (done) return;
+    if (at_then < 0 && then.t - from <= 0.95 * widest_bracket && meets(then)) {
+      impact.set(from, then.t), name(then, at.plane.normal(then));
+      done = true;
+      return;
+    }
+    at.goes_on = sure == 1 && slope < 0 && at_then > 0 && at_then < 0.02 * f && fits(at.plane);
+    at.now = sure == 1 ? then : m.at(from), at.gap = ended;
+    axis = at.plane.normal(at.now);
+    if (!at.goes_on) simplex.add(ended);
+    if (!(from > before)) touched(at);
+  }
+
   void run() {
     if (!m.sure) {
       if (!at_start()) unproved();
       return;
     }
     if (!window() || passes()) return;
-    Instant now = m.at(from);
-    Plane plane;
-    Gap g;
-    bool goes_on = false;  // with the same plane: Newton's method is at work on it
-    for (int segment = 0; segment < most_segments; ++segment) {
+    Stand at{m.at(from)};
+    for (int segment = 0; segment < most_segments && !done; ++segment) {
       ++counts.steps;
-      if (!goes_on) {
-        const double share = segment < 8 ? 0.5 : 0.99;
-        const Apart apart = apart_at(m, now, axis, touch(), share, simplex, counts);
-        if (!apart.found) {
-          if (!touching()) return;
-          now = m.at(from), simplex.n = 0;
-          continue;
-        }
-        plane = choose(now, apart, segment, g);
-      }
-      const double margin = plane.margin(m), f = g.along - margin, slope = plane.slope(m, now, g);
-      // As the bound grows with the interval, it is that of one about as long.
-      double h = reach(f, slope, plane.bound(m, from, from, now), segment);
-      h = reach(f, slope, plane.bound(m, from, std::fmin(from + h, end), now), segment);
-      const Instant then = m.at(std::fmin(from + h, end));
-      const Gap ended = height(plane, then);
-      const double at_then = ended.along - margin, step = then.t - from;
-      const double sure = sure_share(f, at_then, plane.bound(m, from, then.t, now), step);
-      const double before = from;
-      from = sure == 1 ? then.t : from + sure * step;
-      if (sure == 1 && then.t == end) return;
-      if (at_then < 0 && then.t - from <= 0.95 * widest_bracket && meets(then)) {
-        impact.set(from, then.t), name(then, plane.normal(then));
-        return;
-      }
-      goes_on = sure == 1 && slope < 0 && at_then > 0 && at_then < 0.02 * f && fits(plane);
-      now = sure == 1 ? then : m.at(from), g = ended;
-      axis = plane.normal(now);
-      if (!goes_on) simplex.add(ended);
-      if (from > before) continue;
-      if (!touching()) return;
-      now = m.at(from), simplex.n = 0, goes_on = false;
+      if (at.goes_on || find(at, segment)) advance(at, segment);
     }
-    unproved();
+    if (!done) unproved();
   }
 };
 
