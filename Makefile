@@ -18,7 +18,8 @@ REUSE := REUSE_ENCODING_MODULE=charset_normalizer $(BIN)/reuse
 
 .PHONY: help env build quick test lint style types layers lines format licences \
 	lock stub engines browser native \
-	native-v3 bench-truth crosscheck attack drill fuzz fuzz-verified fuzz-sweep fuzz-boundary reproduce clean
+	native-v3 bench-truth crosscheck attack drill fuzz fuzz-verified fuzz-sweep \
+	fuzz-boundary reproduce clean
 help:
 	@echo "make quick        set up, build, run the main job in a few minutes, print its tables"
 	@echo "make test         set up, build, run every test"
