@@ -59,6 +59,11 @@ MUTANTS = {
         "meets_exactly(a, b, pa, pb, proof.axis) ? Verdict::meeting : Verdict::apart",
         "Verdict::meeting",
     ),
+    "doubles alone rank near-tied vertices in the exact step": (
+        "verified_exact.hpp",
+        "- 128 * unit_roundoff * hull_.radius * length(axis);",
+        ";",
+    ),
     "an inscribed ball of an open surface": (
         HULL,
         "if (!faces.empty() && closed(faces)) inner",
