@@ -15,7 +15,7 @@ COMPILER = shutil.which("g++") or shutil.which("c++")
 QUERIES = 40_000  # most mutants end within a hundred
 
 PORTAL, POSE, MAIN = "verified_portal.hpp", "verified_pose.hpp", "verified.hpp"
-SINGLE, HULL = "simd/opposing_body.hpp", "verified_hull.hpp"
+SINGLE, HULL, FINE = "simd/opposing_body.hpp", "verified_hull.hpp", "verified_fine.hpp"
 MUTANTS = {
     "none": None,
     "no full support": (SINGLE, "if (!q.complete) {", "if (false) {"),
@@ -38,6 +38,21 @@ MUTANTS = {
         SINGLE,
         "!(sure > doubt)",
         "!(sure + 0 * doubt > 0)",
+    ),
+    "no margin of a plane in twice the digits": (
+        FINE,
+        "const double size = 1.001 * at.slack * wide(n);",
+        "const double size = 0;",
+    ),
+    "no margin of a portal in twice the digits": (
+        FINE,
+        "if (!(std::abs(height) > 1.001 * doubt)",
+        "if (!(std::abs(height) > 0 * doubt)",
+    ),
+    "doubles alone rank near-tied vertices in twice the digits": (
+        FINE,
+        "- 128 * unit_roundoff * hull.radius * length(axis);",
+        ";",
     ),
     "a portal without area": (
         PORTAL,

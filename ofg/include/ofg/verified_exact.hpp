@@ -61,12 +61,6 @@ class Placed {
   std::vector<std::optional<Vector>> kept_;
 };
 
-// The quaternion in units of its largest component, which changes no rotation.
-inline void in_range(const double (&q)[4], double (&to)[4]) {
-  const double unit = unit_of(std::fmax(std::abs(q[0]), largest(Vec3<double>(q[1], q[2], q[3]))));
-  for (int i = 0; i < 4; ++i) to[i] = q[i] * unit;
-}
-
 inline Number square(const double (&q)[4]) {
   Number sum;
   for (const double c : q) sum = sum + Number(c) * Number(c);

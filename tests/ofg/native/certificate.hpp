@@ -13,6 +13,8 @@ namespace judge {
 template <class T>
 constexpr T roundoff = T(0x1p-53);
 template <>
+constexpr long double roundoff<long double> = 0x1p-64L;
+template <>
 constexpr Quad roundoff<Quad> = Quad(0x1p-113);
 
 // Of a simplex, the point nearest to the origin, and the corners of the smallest part that holds
@@ -79,6 +81,18 @@ struct Simplex {
       *this = best;
   }
 
+  // From a triangle along its normal: where the origin is near it, `nearest` is off by more than
+  // its length.
+  Point<T> towards() const {
+    if (n == 3) {
+      const Point<T> m = cross(v[1] - v[0], v[2] - v[0]);
+      const T height = dot(m, v[0]);
+      if (height > 0) return {-m.x, -m.y, -m.z};
+      if (height < 0) return m;
+    }
+    return {-nearest.x, -nearest.y, -nearest.z};
+  }
+
   void close_in() {
     if (n == 1)
       nearest = v[0];
@@ -107,6 +121,17 @@ bool holds_origin(const Point<T> (&v)[4], T off) {
   return true;
 }
 
+template <class T>
+Point<T> farthest(const Points<T>& all, const Point<T>& d) {
+  std::size_t best = 0;
+  T most = dot(all[0], d);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const T t = dot(all[i], d);
+    if (t > most) most = t, best = i;
+  }
+  return all[best];
+}
+
 // A certificate, or `near` where none is found. A point of A - B is off by less than 2^6 units of
 // rounding of what it is the sum of; 2^8 are allowed for.
 template <class T>
@@ -118,17 +143,16 @@ Says by_certificate(const Posed<T>& at) {
     if (start[0] != 0) d = {T(start[0]), T(start[1]), T(start[2])};
     Simplex<T> s;
     for (int step = 0; step < 60; ++step) {
-      const auto along = [&d](const auto& p, const auto& q) { return dot(p, d) < dot(q, d); };
-      const Point<T> m = *std::max_element(at.a.begin(), at.a.end(), along) -
-                         *std::min_element(at.b.begin(), at.b.end(), along);
+      const Point<T> m = farthest(at.a, d) - farthest(at.b, {-d.x, -d.y, -d.z});
       if (dot(m, d) < -off * size_of(d)) return Says::clear;
-      if (s.n > 0 && !(dot(m - s.nearest, d) > 0)) break;
+      if (s.n > 0 && !(dot(m - s.nearest, d) > off / 16 * size_of(d))) break;
       s.v[s.n++] = m;
       s.close_in();
       if (s.inside) break;
-      d = {-s.nearest.x, -s.nearest.y, -s.nearest.z};
+      d = s.towards();
     }
     if (s.inside && holds_origin(s.v, off)) return Says::hit;
+    if (!s.inside && size_of(s.nearest) < 8 * off) break;  // wherever it starts
   }
   return Says::near;
 }
