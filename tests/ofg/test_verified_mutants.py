@@ -16,6 +16,7 @@ QUERIES = 40_000  # most mutants end within a hundred
 
 PORTAL, POSE, MAIN = "verified_portal.hpp", "verified_pose.hpp", "verified.hpp"
 SINGLE, HULL, FINE = "simd/opposing_body.hpp", "verified_hull.hpp", "verified_fine.hpp"
+EXACT = "verified_exact.hpp"
 MUTANTS = {
     "none": None,
     "no full support": (SINGLE, "if (!q.complete) {", "if (false) {"),
@@ -66,18 +67,23 @@ MUTANTS = {
     ),
     "no exact fallback": (
         MAIN,
-        "meets_exactly(a, b, pa, pb, proof.axis) ? Verdict::meeting : Verdict::apart",
+        "meets_exactly(a, b, pa, pb, ended, proof.axis) ? Verdict::meeting : Verdict::apart",
         "Verdict::apart",
     ),
     "no exact fallback, the other way": (
         MAIN,
-        "meets_exactly(a, b, pa, pb, proof.axis) ? Verdict::meeting : Verdict::apart",
+        "meets_exactly(a, b, pa, pb, ended, proof.axis) ? Verdict::meeting : Verdict::apart",
         "Verdict::meeting",
     ),
     "doubles alone rank near-tied vertices in the exact step": (
-        "verified_exact.hpp",
+        EXACT,
         "- 128 * unit_roundoff * hull_.radius * length(axis);",
         ";",
+    ),
+    "any plane keeps apart in the exact step": (
+        EXACT,
+        "return dot(n, s).sign() <= 0;",
+        "return dot(n, s).sign() <= 1;",
     ),
     "an inscribed ball of an open surface": (
         HULL,

@@ -119,14 +119,14 @@ inline bool recalled(const Hull& a, const Hull& b, const Posed& at, const Cache&
 // In doubles from several starts, and where these end at a portal with the origin on it, as far as
 // doubles can tell, in twice the digits.
 inline void closed_in(const Hull& a, const Hull& b, const Pose& pa, const Pose& pb, const Posed& at,
-                      const Parts& parts, Counts& counts, Proof& proof) {
+                      const Parts& parts, Counts& counts, Proof& proof, Portal& ended) {
   const int starts = a.inner + b.inner > 0 ? most_starts : 1;
-  for (int i = 0; i < starts && proof.verdict == Verdict::unsure; ++i) {
+  for (int i = 0; i < starts && proof.verdict == Verdict::unsure && !ended.known; ++i) {
     Search search{a, b, at, counts, proof};
     search.run(i);
     if (proof.verdict != Verdict::unsure || !search.closed || !parts.twice) continue;
     const FinePose fine(a, b, pa, pb, at);
-    FineSearch{a, b, fine, counts, proof}.run();
+    FineSearch{a, b, fine, counts, proof, ended}.run();
   }
 }
 
@@ -169,12 +169,15 @@ inline Answer overlap(const Hull& a, const Hull& b, const Pose& pa, const Pose& 
     return answer;
   }
   if (at.sure && parts.singles) detail::opposed(a, b, at, parts, answer.counts, proof);
-  if (at.sure && parts.doubles) detail::closed_in(a, b, pa, pb, at, parts, answer.counts, proof);
+  Portal ended;
+  if (at.sure && parts.doubles)
+    detail::closed_in(a, b, pa, pb, at, parts, answer.counts, proof, ended);
   if (proof.verdict != Verdict::unsure) {
     if (cache) *cache = {a.number, b.number, proof};
   } else {
     ++answer.counts.steps;
-    proof.verdict = meets_exactly(a, b, pa, pb, proof.axis) ? Verdict::meeting : Verdict::apart;
+    proof.verdict =
+        meets_exactly(a, b, pa, pb, ended, proof.axis) ? Verdict::meeting : Verdict::apart;
   }
   detail::name(a, b, at, proof, answer);
   return answer;

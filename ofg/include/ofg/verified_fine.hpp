@@ -45,6 +45,7 @@ struct FineSearch {
   const FinePose& at;
   Counts& counts;
   Proof& proof;
+  Portal& ended;
 
   Vec3Twice of_a(int i) const {
     return at.r * exact_difference(a.vertices[std::size_t(i)], a.centre) + at.between;
@@ -145,7 +146,11 @@ struct FineSearch {
       const Corner s = support(n);
       const double size = 1.001 * at.slack * wide(n);
       if (double(dot(n, s.m)) < -size) return settle(Verdict::apart, n, v);
-      if (!(double(dot(n, s.m - v[0].m)) > size)) return;  // nothing to gain
+      if (!(double(dot(n, s.m - v[0].m)) > size)) {  // nothing to gain
+        ended.known = true;
+        for (int i = 0; i < 3; ++i) ended.a[i] = v[i].a, ended.b[i] = v[i].b;
+        return;
+      }
       const Vec3Twice c = cross(s.m, v0);
       const bool one = double(dot(v[0].m, c)) > 0, two = double(dot(v[1].m, c)) > 0,
                  three = double(dot(v[2].m, c)) > 0;

@@ -21,6 +21,12 @@ struct Proof {
   double off = 0;           // how far the corners may be from points of the bodies
 };
 
+// The vertices of A and of B whose differences are the corners of a portal.
+struct Portal {
+  bool known = false;
+  int a[3], b[3];
+};
+
 namespace detail {
 
 constexpr int most_steps = 100, most_starts = 3;
