@@ -30,10 +30,10 @@ def save(folder: Path, rows: pd.DataFrame, page: str, made: dict) -> None:
 def small(rows: pd.DataFrame) -> pd.DataFrame:
     """The same with each word stored once; times to four digits, quotients to three."""
     words = {name: rows[name].astype("category") for name in ("class", "over", *CELL, *CONTESTANT)}
-    digits = {"ns": 4, **dict.fromkeys(RATIO, 3)}
+    digits = {"ns": 4, "build_ns": 4, "bytes": 4, **dict.fromkeys(RATIO, 3)}
     numbers = {name: rounded(rows[name], n).astype("float32") for name, n in digits.items()}
-    counts = {name: rows[name].astype("Int32") for name in ("blocks", *COUNTS)}
-    return rows.drop(columns="build_ns").assign(**words, **numbers, **counts)
+    counts = {name: rows[name].astype("Int32") for name in ("blocks", "built", *COUNTS)}
+    return rows.assign(**words, **numbers, **counts)
 
 
 def rounded(values: pd.Series, digits: int) -> pd.Series:

@@ -50,6 +50,8 @@ def times(ns, modes=("warm", "batch")) -> pd.DataFrame:
             "block": b,
             "ns": ns(e, isa, mode, b),
             "build_ns": 1,
+            "built": 2,
+            "bytes": -1,
         }
         for e, isa in who
         for mode in modes
