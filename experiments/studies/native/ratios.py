@@ -44,7 +44,7 @@ def ratios(times: pd.DataFrame, answers: pd.DataFrame) -> pd.DataFrame:
 
 def _of_cell(rows: pd.DataFrame) -> Iterator[dict]:
     single = rows[rows["mode"] != "batch"]
-    for mode in rows["mode"][rows.engine == VERIFIED].unique():
+    for mode in rows["mode"][rows.engine.isin([VERIFIED, VERIFIED + CACHE])].unique():
         kept = CACHE if mode == "coherent" else ""
         own = rows[(rows.engine == VERIFIED + kept) & (rows["mode"] == mode)].set_index("block").ns
         sure = single[single.wrong == 0]

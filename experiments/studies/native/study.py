@@ -17,7 +17,7 @@ from experiments.run.folder import manifest
 from experiments.run.folder.store import Store
 from experiments.run.progress import stage
 
-from . import certified, lanes, saving, synthetic, twins
+from . import certified, further, lanes, saving, synthetic, twins
 from .cell import Cell
 from .measuring import measure
 from .page import markdown, page
@@ -40,7 +40,8 @@ def study(
     """
     built = head()
     if run is None:
-        cells = list(synthetic.cells(cases, poses // 32 * 32, seed))
+        poses = poses // 32 * 32
+        cells = [*synthetic.cells(cases, poses, seed), *further.cells(poses, seed)]
         asked = f"Hulls, cubes and icospheres by size, labels certified, seed {seed}."
     else:
         cells, left = list(certified.cells(Store(run), cases)), certified.left_out(Store(run))
