@@ -80,9 +80,7 @@ class Spheres final : public Engine {
     return turn[3 * row] * v[0] + turn[3 * row + 1] * v[1] + turn[3 * row + 2] * v[2];
   }
 
-  static double size(const Vector& v) {
-    return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  }
+  static double size(const Vector& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 };
 
 // The configurations that get the control: of each library the most exact one, and those that are

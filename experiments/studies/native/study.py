@@ -21,6 +21,7 @@ from . import certified, further, lanes, saving, synthetic, twins
 from .cell import Cell
 from .measuring import measure
 from .page import markdown, page
+from .ratios import growths, ratios
 from .summary import summary
 
 
@@ -52,13 +53,14 @@ def study(
     made = saving.facts(asked=asked, rounds=rounds)
     times, answers, both, noise = _measured(cells, rounds, core, python)
     rows = saving.small(summary(times, answers))
+    found = saving.few_digits(ratios(times, answers)), growths(times)
     facts = [asked, f"{rounds} rounds.", *built, _noise(noise)]
     facts += _against(Store(run), rows, answers) if run else []
     facts = [line for fact in facts for line in (fact, "")]
-    print(page(rows, facts, parts=False) + _both(both))
+    print(page(rows, facts, *found, parts=False) + _both(both))
     if out:
         made |= {"noise": round(float(np.nanmax(noise)), 4), "finished": manifest.now()}
-        saving.save(out, rows, page(rows, facts) + _both(both), made)
+        saving.save(out, rows, *found, page(rows, facts, *found) + _both(both), made)
 
 
 def _measured(cells: list[Cell], rounds: int, core: int | None, python: bool) -> tuple:

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 import pandas as pd
 
 from .classes import CLASSES, V3
-from .measuring import CELL
 
 GROWTH = 0.5  #: the largest exponent of time over faces, upper end of its interval
 NEAR = ("gap", "shallow", "deep")
@@ -51,8 +50,8 @@ class Target:
 
     @property
     def asked(self) -> str:
-        others = "".join(f"; {n:,} faces: {least:g}" for n, least in self.but.items())
-        return f"{self.least:g}{others}"
+        others = "; ".join(f"{n:,} faces: {least:g}" for n, least in self.but.items())
+        return f">= {self.least:g}" + (f" ({others})" if others else "")
 
 
 def _calls(builds: str, least: float, but: Mapping[int, float] = {}) -> list[Target]:
@@ -86,37 +85,33 @@ def table(ratios: pd.DataFrame, growths: pd.DataFrame) -> pd.DataFrame:
 
 
 def _reached(target: Target, cells: pd.DataFrame) -> dict[str, str]:
-    words = "the screen" if target.against == "screen" else "the fastest engine without an error"
-    row = {
-        "OFG": CLASSES[target.builds],
-        "target": f"{target.what}: {words}'s time over its own, at least",
-        "asked": target.asked,
-    }
+    others = "screen" if target.against == "screen" else "fastest engine without an error"
+    row = _head(target.builds, f"{target.what}: time of the {others} / its own", target.asked)
     if cells.empty:
-        return row | dict.fromkeys(("reached", "by the interval", "worst cell", "ratio"), "-")
+        return row
     worst = cells.loc[(cells.ratio / cells.wanted).idxmin()]
     return row | {
         "reached": f"{(cells.ratio >= cells.wanted).sum()} of {len(cells)}",
         "by the interval": f"{(cells.low >= cells.wanted).sum()} of {len(cells)}",
-        "worst cell": " ".join(str(worst[name]) for name in CELL if name != "question")
-        + f", {worst.over}",
+        "worst cell": f"{worst.bodies} {worst.faces} {worst.situation}, {worst.over}",
         "ratio": f"{worst.ratio:.2f} ({worst.low:.2f}-{worst.high:.2f})",
     }
 
 
 def _grown(growths: pd.DataFrame, name: str) -> dict[str, str]:
     rows = growths[growths["class"] == name]
-    row = {
-        "OFG": CLASSES[name],
-        "target": "growth, 80 to 20,480 faces: exponent of its time, at most",
-        "asked": f"{GROWTH:g}",
-    }
+    row = _head(name, "exponent of its time over 80 to 20,480 faces", f"<= {GROWTH:g}")
     if rows.empty:
-        return row | dict.fromkeys(("reached", "by the interval", "worst cell", "ratio"), "-")
+        return row
     worst = rows.loc[rows.high.idxmax()]
     return row | {
         "reached": f"{(rows.exponent <= GROWTH).sum()} of {len(rows)}",
         "by the interval": f"{(rows.high <= GROWTH).sum()} of {len(rows)}",
-        "worst cell": f"{worst.bodies} {worst.situation} {worst['mode']}",
+        "worst cell": f"{worst.bodies} {worst.situation}, {worst['mode']}",
         "ratio": f"{worst.exponent:.2f} ({worst.low:.2f}-{worst.high:.2f})",
     }
+
+
+def _head(builds: str, target: str, asked: str) -> dict[str, str]:
+    row = {"OFG": CLASSES[builds], "target": target, "asked": asked}
+    return row | dict.fromkeys(("reached", "by the interval", "worst cell", "ratio"), "-")
