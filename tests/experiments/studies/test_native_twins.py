@@ -15,7 +15,7 @@ import pytest
 
 from baselines import native
 from experiments.run.folder.store import Store
-from experiments.studies.native import certified, measuring, twins
+from experiments.studies.native import certified, measuring, synthetic, twins
 from experiments.studies.native.classes import V3
 from ofg.verification import prepare_verified
 
@@ -74,6 +74,19 @@ def test_verified_ofg_answers_as_from_python(answers, name, selection):
     }
     assert (own.hit == own.case.map(there)).all()
     assert (own.hit == (own.label == "hit")).all()
+
+
+@pytest.mark.usefixtures("answers")
+def test_neither_a_batch_nor_a_cache_changes_an_answer():
+    cell = synthetic.coherent(80, "contact", 64, seed=3)
+    taken = native.run(cell.queries, ("warm", "batch", "coherent"), cell.block, 1, 0)
+    found = taken.answers.join(taken.contestants, on="id")
+    found = found[found.engine.str.match("ofg-verified|ofg-mpr")]
+    assert set(found["mode"]) == {"warm", "batch", "coherent"}
+    assert "ofg-verified, cache" in set(found.engine)
+    wanted = [label == "hit" for label in cell.labels]
+    for _, rows in found.groupby("id"):
+        assert list(rows.sort_values("case").hit.astype(bool)) == wanted
 
 
 def test_spheres_settle_what_they_settle_rightly(answers):
