@@ -139,15 +139,16 @@ def with_single_calls(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def _targets(ratios: pd.DataFrame, growths: pd.DataFrame) -> list[str]:
-    """What verified OFG was to reach, where it was asked."""
-    if ratios.empty:
+    """What verified OFG was to reach, where any cell of it was measured."""
+    made = targets.table(ratios, growths)
+    if (made.reached == "-").all():
         return []
     text = (
         f"Of {VERIFIED}, set before it was measured. Reached: the cells with a ratio as asked, of"
         " those measured. By the interval: the cells whose whole 95 % interval is as asked. In"
         " batches it is compared with single calls of the engines."
     )
-    return ["## Targets", "", text, "", markdown(targets.table(ratios, growths)), ""]
+    return ["## Targets", "", text, "", markdown(made), ""]
 
 
 def _preparation(rows: pd.DataFrame, ratios: pd.DataFrame) -> list[str]:
