@@ -47,6 +47,7 @@ def test_it_holds_where_it_is_faster_everywhere_and_never_wrong():
     assert found.verdict == HOLDS
     assert "0 wrong answers of 36" in found.number and "geometric mean 5" in found.number
     assert "12 of 12 cells" in found.number
+    assert "spheres are faster than it in 12 of 12 cells" in found.number
     assert "bullet" not in found.text and "0.1, above 1 in 0 and below 1 in 4" in found.text
     assert "without them: SSE2: 3," in found.text, "what opposing faces bring"
 
