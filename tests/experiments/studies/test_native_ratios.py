@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from experiments.studies.native import further, preparation, targets
+from experiments.studies.native import further, lanes, preparation, targets
 from experiments.studies.native.classes import V3
 from experiments.studies.native.ratios import CACHE, MPR, SCREENED, VERIFIED, growths, ratios
 from experiments.studies.native.summary import summary
@@ -122,6 +122,14 @@ def test_preparation_pays_after_as_many_queries_as_save_its_time():
     assert row["mpr's queries"] == "25", "1,000 ns, and 4 times 10 saved by the median block"
     assert row["engine"] == "parry" and row["engine's queries"] == "-", "never"
     assert row["KiB per body"] == "2"
+
+
+def test_verified_ofg_has_an_explanation_of_its_own():
+    """It was given that of OFG as written, of workspaces that it does not have."""
+    table = pd.DataFrame({"method": ["ofg k=8", VERIFIED, "fcl-convex"], "ratio": [2.0, 2.0, 0.5]})
+    lines = lanes.explained(table)
+    assert [line.split(" (")[0] for line in lines] == ["- fcl", "- ofg", "- ofg-verified"]
+    assert "workspace" in lines[1] and "workspace" not in lines[2]
 
 
 def test_further_cells_lie_where_they_are_said_to():
