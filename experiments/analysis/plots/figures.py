@@ -22,8 +22,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from baselines import registry
 from experiments.analysis import costs, metrics, outcome, views
+from experiments.run.bins import SITUATIONS, SIZES, size_of
 from experiments.run.folder.store import Store
-from experiments.run.timing import SITUATIONS, SIZES, size_of
 
 # The palette of Okabe and Ito and three colours of Paul Tol, one per engine, which remain distinct
 # under the common colour vision deficiencies; markers repeat the distinction in grey print.
