@@ -39,7 +39,7 @@ COLOURS = (
     "#882255",
     "#DDCC77",
 )
-MARKERS = "osD^vP*Xh<>p"
+MARKERS = "osD^vP*Xh<>pd8H"
 GRAIN = 50.0  # ns: shorter net times are below the clock's resolution and are drawn at this value
 LEAST = 20  # a panel needs at least so many certified cases
 
