@@ -8,16 +8,17 @@ with: the same portal without a selection.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import replace
 
 import ofg
-from ofg import Query
+from ofg import Motion, Query
 from ofg.verification import prepare_verified
 
-from .contract import Method, Unsupported, Verdict
+from .contract import Unsupported
+from .sampling import Discrete, Substeps
 
 
-class Verified(Method):
+class Verified(Discrete):
     """Opposing faces by a table of directions, a portal over their vertices, an answer that the
     whole bodies confirm, and exact arithmetic where doubles cannot. Unions by pairs of pieces.
     """
@@ -26,19 +27,27 @@ class Verified(Method):
     engine = "ofg"
     imports = "ofg"
     configuration = "best effort"
-    questions = frozenset({"overlap"})
     bodies = frozenset({"convex", "union"})
     solid = True
+    places_b = True
     guarantee = "every answer is proved, in doubles by more than their rounding or exactly"
     selection = True
 
-    def prepare(self, query: Query) -> Callable[[], Verdict]:
-        self.refuse(query)
-        try:
-            ask = prepare_verified(query, selection=self.selection)
-        except ofg.BodyError as error:
-            raise Unsupported(str(error)) from error
-        return lambda: Verdict(*ask())
+    def build(self, query: Query):
+        still = replace(query, question="overlap", motion=Motion(), motion_b=Motion())
+
+        def place(pose_a, pose_b=query.pose_b):
+            placed = replace(still, pose_a=pose_a, pose_b=pose_b)
+            try:
+                return prepare_verified(placed, selection=self.selection)
+            except ofg.BodyError as error:
+                raise Unsupported(str(error)) from error
+
+        return place, lambda ask: ask()[0]
+
+
+class VerifiedSubsteps(Substeps, Verified):
+    name = "ofg-verified-substeps"
 
 
 class Portal(Verified):
@@ -51,4 +60,4 @@ class Portal(Verified):
     selection = False
 
 
-METHODS = [Verified, Portal]
+METHODS = [Verified, VerifiedSubsteps, Portal]

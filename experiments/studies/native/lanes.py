@@ -16,8 +16,9 @@ import pandas as pd
 from baselines import registry
 from baselines.label import name_of
 from experiments.cases.case import Case
+from experiments.run.bins import Bin
 from experiments.run.config import TimingChoice
-from experiments.run.timing import COLUMNS, FLOOR, Bin, time_bin
+from experiments.run.timing import COLUMNS, FLOOR, time_bin
 
 from . import twins
 from .cell import Cell

@@ -8,7 +8,7 @@
 #pragma once
 #include "screen.hpp"
 #include "verified_exact.hpp"
-#include "verified_portal.hpp"
+#include "verified_spheres.hpp"
 
 namespace ofg::verified {
 
@@ -141,10 +141,9 @@ inline Answer overlap(const Hull& a, const Hull& b, const Pose& pa, const Pose& 
   Proof proof;
   if (at.sure && parts.spheres) {
     ++answer.counts.spheres;
-    // A length is off by 4 units of rounding of itself, which slack covers: it counts 256.
-    const double apart = length(at.between);
-    if (apart > (a.radius + b.radius) * at.unit + at.slack) return answer;
-    if (apart + at.slack < (a.inner + b.inner) * at.unit) {
+    const Verdict said = by_spheres(a, b, at);
+    if (said == Verdict::apart) return answer;
+    if (said == Verdict::meeting) {
       answer.hit = true, answer.found = Found::inside;
       return answer;
     }
