@@ -10,13 +10,15 @@
 
 namespace lane {
 
-// Bounding spheres that are apart are a miss and inscribed spheres that meet a hit, by the radii of
-// ofg::verified::Hull and with the margin of Posed (verified_pose.hpp); else the engine is asked.
-// Where its engine's transforms are, the rotations are worked out beforehand.
+// As baselines/spheres.py asks it: bounding spheres that are apart are a miss and inscribed spheres
+// that meet a hit, by the radii of ofg::verified::Hull and with the margin of Posed
+// (verified_pose.hpp); else the engine is asked. OFG's own step works out the relative pose that it
+// needs further on. Here nothing but the centres is moved, by matrices worked out beforehand as the
+// transforms of engines are: the control gets the cheapest form of the step.
 class Spheres final : public Engine {
  public:
   explicit Spheres(std::unique_ptr<Engine> engine)
-      : Engine("spheres + " + engine->name), engine_(std::move(engine)) {
+      : Engine("spheres-" + engine->name), engine_(std::move(engine)) {
     isa = engine_->isa, build_of = engine_->build_of;
   }
 

@@ -22,6 +22,7 @@ from experiments.run.timing import COLUMNS, FLOOR, time_bin
 
 from . import twins
 from .cell import Cell
+from .classes import BEHIND
 from .measuring import CELL
 
 LIMIT = 0.3  #: of the native time: a larger difference is explained
@@ -145,7 +146,7 @@ def _hits(label: str, cases: list[Case]) -> dict[str, bool]:
 
 
 def _key(method: str) -> str:
-    name = name_of(method)
+    name = name_of(method).removeprefix(BEHIND)
     return name if name in WHY else name.split("-")[0]
 
 

@@ -27,7 +27,7 @@ def study(own: dict, wrong: str = "", engine: float = 100.0) -> Fake:
     for faces, ns in own.items():
         each = [(VERIFIED, OURS, ns), (MPR, OURS, 60.0)]
         each += [("parry", THEIRS, engine), ("bullet", THEIRS, 1.0)]
-        each += [("spheres + parry", THEIRS, 2.0)]
+        each += [("spheres-parry", THEIRS, 2.0)]
         for name, builds, took in each:
             for isa in builds:
                 for mode in ("cold", "coherent"):

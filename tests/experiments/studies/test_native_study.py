@@ -18,7 +18,7 @@ from experiments.cli.app import app
 from experiments.publish.report import lanes
 from experiments.run.folder.store import Store, StoreError
 from experiments.studies.native import certified, saving, synthetic, twins
-from experiments.studies.native.classes import CLASSES, V3, library, standing
+from experiments.studies.native.classes import CLASSES, CONTROL, V3, library, standing
 from experiments.studies.native.page import overview, page
 from experiments.studies.native.ratios import growths, ratios
 from experiments.studies.native.summary import interval, steps, summary
@@ -96,7 +96,7 @@ def test_every_engine_of_the_plugins_belongs_to_a_library():
     for engine in ("fcl-convex-indep, cached guess", "parry", "parry, kept manifold", "mujoco"):
         assert library(engine) != "OFG"
     assert library("ofg k=8 to step 3") == library("ofg-verified, cache") == "OFG"
-    assert library("spheres + fcl-convex") == "spheres +", "a control: no engine, and not OFG"
+    assert library("spheres-fcl-convex-exact") == CONTROL, "no engine, and not OFG"
 
 
 def test_quotients_are_of_the_same_class_and_block():

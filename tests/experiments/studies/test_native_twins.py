@@ -91,8 +91,9 @@ def test_neither_a_batch_nor_a_cache_changes_an_answer():
 
 def test_spheres_settle_what_they_settle_rightly(answers):
     """An engine behind them answers as it does alone, or as certified."""
-    behind = answers[answers.engine.str.startswith("spheres + ")]
-    behind = behind.assign(engine=behind.engine.str.removeprefix("spheres + "))
+    behind = answers[answers.engine.str.startswith("spheres-")]
+    assert twins.key("spheres-fcl-convex-exact"), "named as the method of the Python lane"
+    behind = behind.assign(engine=behind.engine.str.removeprefix("spheres-"))
     key = ["engine", "isa", "build", "mode", "case"]
     both = behind.merge(answers, on=key, suffixes=("", "_alone"))
     assert len(both) == len(behind) > 0
