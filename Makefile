@@ -35,7 +35,7 @@ help:
 	@echo "make attack       corrupt thousands of certificates: the checker must refuse them"
 	@echo "make drill        kill, stop and starve runs, and run faulty methods (an hour or more)"
 	@echo "make fuzz         a million random queries under the address and UB sanitizers"
-	@echo "make fuzz-verified  verified OFG alone without sanitizers: QUERIES=100000000 SEED=1"
+	@echo "make fuzz-verified  verified OFG without sanitizers: QUERIES, SECONDS, SEED, FROM (a pair)"
 	@echo "make fuzz-boundary  a million calls with garbage into both native modules"
 	@echo "make clean        remove the environment and the build (never a run)"
 
@@ -143,10 +143,11 @@ fuzz: build
 	ASAN_OPTIONS=malloc_context_size=0 build/fuzz/fuzz_verified $(QUERIES) $(SECONDS)
 
 SEED ?= 1
+FROM ?= 0
 fuzz-verified: build
 	$(BIN)/cmake -S tests/ofg/native -B build/fuzz -DCMAKE_BUILD_TYPE=Release
 	$(BIN)/cmake --build build/fuzz --target fuzz_verified_plain
-	build/fuzz/fuzz_verified_plain $(QUERIES) $(SECONDS) $(SEED)
+	build/fuzz/fuzz_verified_plain $(QUERIES) $(SECONDS) $(SEED) $(FROM)
 
 CALLS ?= 1000000
 fuzz-boundary: build

@@ -50,6 +50,16 @@ struct Posed {
   }
 };
 
+namespace detail {
+
+// The quaternion in units of its largest component, which changes no rotation.
+inline void in_range(const double (&q)[4], double (&to)[4]) {
+  const double unit = unit_of(std::fmax(std::abs(q[0]), largest(Vec3<double>(q[1], q[2], q[3]))));
+  for (int i = 0; i < 4; ++i) to[i] = q[i] * unit;
+}
+
+}  // namespace detail
+
 // The points of A and of B, relative to the centres and in their axes, whose difference is farthest
 // along an axis n of B's axes.
 struct Support {
