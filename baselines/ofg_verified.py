@@ -19,7 +19,8 @@ from .contract import Method, Unsupported, Verdict
 
 class Verified(Method):
     """Opposing faces by a table of directions, a portal over their vertices, an answer that the
-    whole bodies confirm, and exact arithmetic where doubles cannot. Unions by pairs of pieces.
+    whole bodies confirm, and exact arithmetic where doubles cannot. Unions by pairs of pieces and
+    meshes by pairs of faces, which trees of boxes exclude or which are asked.
     """
 
     name = "ofg-verified"
@@ -27,7 +28,7 @@ class Verified(Method):
     imports = "ofg"
     configuration = "best effort"
     questions = frozenset({"overlap"})
-    bodies = frozenset({"convex", "union"})
+    bodies = frozenset({"convex", "union", "mesh"})
     solid = True
     guarantee = "every answer is proved, in doubles by more than their rounding or exactly"
     selection = True
@@ -48,6 +49,7 @@ class Portal(Verified):
 
     name = "ofg-mpr"
     configuration = "alternative"
+    bodies = frozenset({"convex", "union"})  # a mesh has no opposing faces to leave out
     selection = False
 
 

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The ofg authors
+//
+// SPDX-License-Identifier: MIT
+
+// Two closed surfaces at one pair of poses: which faces cross, and which vertices lie inside.
+#pragma once
+#include "verified_surface.hpp"
+
+namespace ofg::verified::detail {
+
+// The end of a ray along x from a point of the target's axes: beyond its bounding ball.
+inline Vec3<double> beyond(const Surface& target, const Vec3<double>& from) {
+  return target.centre + from + Vec3<double>(4 * target.radius, 0, 0);
+}
+
+class Crossing {
+ public:
+  Crossing(const Surface& a, const Surface& b, const Between& at, Sides& sides)
+      : a_(a), b_(b), at_(at), sides_(sides) {}
+
+  // Do these faces cross? B gives way where they only touch.
+  bool faces(int i, int j) {
+    if (i != face_a_) {
+      face_a_ = i;
+      for (int k = 0; k < 3; ++k) p_[k] = vertex_of_a(a_.index(i, k));
+    }
+    Point q[3];
+    for (int k = 0; k < 3; ++k) q[k] = vertex_of_b(b_.index(j, k));
+    int above_b[3], above_a[3];
+    if (!straddles(q, p_, above_b) || !straddles(p_, q, above_a)) return false;
+    for (int k = 0; k < 3; ++k) {
+      const int l = (k + 1) % 3;
+      if (above_b[k] != above_b[l] && passes(p_[k], p_[l], q)) return true;
+      if (above_a[k] != above_a[l] && passes(q[k], q[l], p_)) return true;
+    }
+    return false;
+  }
+
+  // Where no faces cross, a part of a surface is inside the other solid where any of its vertices
+  // is.
+  bool contained(std::int64_t& pairs) {
+    for (const int v : a_.shells)
+      if (winding(vertex_of_a(std::size_t(v)), b_, true, pairs) != 0) return true;
+    for (const int v : b_.shells)
+      if (winding(vertex_of_b(std::size_t(v)), a_, false, pairs) != 0) return true;
+    return false;
+  }
+
+  // How often a surface winds about a point, which is of the other body and not on the surface.
+  int winding(const Point& from, const Surface& target, bool is_b, std::int64_t& pairs) {
+    const Vec3<double> local = is_b ? from.at : at_.r.transposed() * (from.at - at_.between);
+    if (at_.sure && length(local) > target.radius + at_.slack) return 0;
+    const Vec3<double> end = beyond(target, local), far = end - target.centre;
+    Point to;
+    to.at = is_b ? far : at_.r * far + at_.between;
+    to.given[0] = &end, to.in_b = is_b, to.moves = from.moves;
+    int sum = 0;
+    const auto face = [&](int i) {
+      Point q[3];
+      for (int k = 0; k < 3; ++k)
+        q[k] = is_b ? vertex_of_b(target.index(i, k)) : vertex_of_a(target.index(i, k));
+      const int side = sides_(q[0], q[1], q[2], from);
+      if (side != sides_(q[0], q[1], q[2], to) && passes(from, to, q)) sum += side;
+    };
+    if (!at_.sure) {
+      for (const int i : target.broad) face(i);
+      return sum;
+    }
+    along_x(target.tree, local * (1 / target.radius), 0x1p-20 + 2 * at_.slack / target.radius,
+            pairs, face);
+    return sum;
+  }
+
+ private:
+  Point vertex_of_a(std::size_t v) const {
+    return {at_.r * a_.cloud[v] + at_.between, {&a_.vertices[v]}, 1, false, false};
+  }
+  Point vertex_of_b(std::size_t v) const {
+    return {b_.cloud[v], {&b_.vertices[v]}, 1, true, true};
+  }
+
+  bool straddles(const Point (&plane)[3], const Point (&p)[3], int (&side)[3]) {
+    for (int k = 0; k < 3; ++k) side[k] = sides_(plane[0], plane[1], plane[2], p[k]);
+    return side[0] != side[1] || side[1] != side[2];
+  }
+
+  // Does a line through the plane of a face pass through the face?
+  bool passes(const Point& p, const Point& q, const Point (&face)[3]) {
+    const int side = sides_(p, q, face[0], face[1]);
+    return sides_(p, q, face[1], face[2]) == side && sides_(p, q, face[2], face[0]) == side;
+  }
+
+  // The items whose boxes a ray along x may meet. In units of the radius.
+  template <class Take>
+  static void along_x(const Tree& tree, const Vec3<double>& from, double margin,
+                      std::int64_t& pairs, const Take& take) {
+    int stack[12 * box_lanes], n = 0;
+    stack[n++] = Tree::root;
+    while (n > 0) {
+      const BoxNode& node = tree.node(stack[--n]);
+      pairs += box_lanes;
+      for (int i = 0; i < box_lanes; ++i) {
+        const int child = node.child[i];
+        if (child == 0 || !(std::abs(node.centre[1][i] - from.y) <= node.extent[1][i] + margin) ||
+            !(std::abs(node.centre[2][i] - from.z) <= node.extent[2][i] + margin) ||
+            !(node.centre[0][i] + node.extent[0][i] + margin >= from.x))
+          continue;
+        if (child < 0)
+          take(~child);
+        else
+          stack[n++] = child;
+      }
+    }
+  }
+
+  const Surface &a_, &b_;
+  const Between& at_;
+  Sides& sides_;
+  int face_a_ = -1;
+  Point p_[3];
+};
+
+}  // namespace ofg::verified::detail
