@@ -66,8 +66,7 @@ class Crossing {
       for (const int i : target.broad) face(i);
       return sum;
     }
-    along_x(target.tree, local * (1 / target.radius), 0x1p-20 + 2 * at_.slack / target.radius,
-            pairs, face);
+    meet_ray(target.tree, local * (1 / target.radius), 2 * at_.slack / target.radius, pairs, face);
     return sum;
   }
 
@@ -88,29 +87,6 @@ class Crossing {
   bool passes(const Point& p, const Point& q, const Point (&face)[3]) {
     const int side = sides_(p, q, face[0], face[1]);
     return sides_(p, q, face[1], face[2]) == side && sides_(p, q, face[2], face[0]) == side;
-  }
-
-  // The items whose boxes a ray along x may meet. In units of the radius.
-  template <class Take>
-  static void along_x(const Tree& tree, const Vec3<double>& from, double margin,
-                      std::int64_t& pairs, const Take& take) {
-    int stack[12 * box_lanes], n = 0;
-    stack[n++] = Tree::root;
-    while (n > 0) {
-      const BoxNode& node = tree.node(stack[--n]);
-      pairs += box_lanes;
-      for (int i = 0; i < box_lanes; ++i) {
-        const int child = node.child[i];
-        if (child == 0 || !(std::abs(node.centre[1][i] - from.y) <= node.extent[1][i] + margin) ||
-            !(std::abs(node.centre[2][i] - from.z) <= node.extent[2][i] + margin) ||
-            !(node.centre[0][i] + node.extent[0][i] + margin >= from.x))
-          continue;
-        if (child < 0)
-          take(~child);
-        else
-          stack[n++] = child;
-      }
-    }
   }
 
   const Surface &a_, &b_;

@@ -20,21 +20,19 @@ struct Solid {
 
   // A union of convex pieces, none of them flat.
   explicit Solid(Hulls hulls) : pieces(std::move(hulls)) {
-    Box all;
+    std::vector<Vec3<double>> all;
     for (const auto& piece : pieces)
-      for (const auto& v : piece.vertices) all.add(v);
-    centre = (all.lo + all.hi) * 0.5;
-    for (const auto& piece : pieces)
-      for (const auto& v : piece.vertices) radius = std::fmax(radius, length(v - centre));
+      all.insert(all.end(), piece.vertices.begin(), piece.vertices.end());
+    centre = middle_of(all);
+    for (const auto& v : all) radius = std::fmax(radius, length(v - centre));
     radius *= 1 + 8 * unit_roundoff;
-    std::vector<Box> boxes(pieces.size());
-    std::vector<int> items;
+    Items items;
     const double unit = radius > 0 ? 1 / radius : 0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      items.push_back(int(i));
-      for (const auto& v : pieces[i].vertices) boxes[i].add((v - centre) * unit);
+      for (const auto& v : pieces[i].vertices) items.points.push_back((v - centre) * unit);
+      items.end(int(i));
     }
-    tree = Tree(std::move(boxes), std::move(items));
+    tree = Tree(items);
   }
 
   // What a closed surface winds about. vertices, faces: as Surface takes them, and its exceptions.

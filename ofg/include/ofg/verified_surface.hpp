@@ -32,9 +32,7 @@ struct Surface {
   Surface(std::vector<Vec3<double>> points, Triangles triangles)
       : vertices(std::move(points)), faces(std::move(triangles)) {
     if (!balanced()) throw std::invalid_argument("its surface is open, or not wound one way");
-    Box all;
-    for (const auto& v : vertices) all.add(v);
-    centre = (all.lo + all.hi) * 0.5;
+    centre = middle_of(vertices);
     for (const auto& v : vertices) {
       cloud.push_back(v - centre);
       radius = std::fmax(radius, length(cloud.back()));
@@ -79,14 +77,16 @@ struct Surface {
   }
 
   void plant() {
-    std::vector<Box> boxes(faces.size());
+    Items items;
     const double unit = radius > 0 ? 1 / radius : 0;
     for (int i = 0; i < int(faces.size()); ++i) {
-      for (int j = 0; j < 3; ++j) boxes[std::size_t(i)].add(corner(i, j) * unit);
-      if (!flat(i)) broad.push_back(i);
+      if (flat(i)) continue;
+      broad.push_back(i);
+      for (int j = 0; j < 3; ++j) items.points.push_back(corner(i, j) * unit);
+      items.end(i);
     }
     if (in_one_plane()) throw std::invalid_argument("its surface is flat: its interior is empty");
-    tree = Tree(std::move(boxes), broad);
+    tree = Tree(items);
   }
 
   // Differences are off by u of the largest coordinate, twice; products of two by 8 u of that.

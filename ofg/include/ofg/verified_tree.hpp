@@ -2,106 +2,112 @@
 //
 // SPDX-License-Identifier: MIT
 
-// A tree of bounding boxes, eight to a node, over the faces or the pieces of a body; and the pairs
+// A tree of oriented boxes, eight to a node, over the faces or the pieces of a body; and the pairs
 // of items of two such trees whose boxes meet, the deepest first.
 #pragma once
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <vector>
 
 #include "simd/boxes.hpp"
-#include "vector.hpp"
+#include "verified_box.hpp"
 
 namespace ofg::verified {
 
-struct Box {
-  Vec3<double> lo{INFINITY, INFINITY, INFINITY}, hi{-INFINITY, -INFINITY, -INFINITY};
+// Points of each item, those of item i from first[i] to first[i + 1], relative to the body's centre
+// in units of its radius.
+struct Items {
+  std::vector<Vec3<double>> points;
+  std::vector<int> first{0}, name;
 
-  void add(const Vec3<double>& v) {
-    lo = {std::fmin(lo.x, v.x), std::fmin(lo.y, v.y), std::fmin(lo.z, v.z)};
-    hi = {std::fmax(hi.x, v.x), std::fmax(hi.y, v.y), std::fmax(hi.z, v.z)};
-  }
-  void add(const Box& b) { add(b.lo), add(b.hi); }
+  void end(int named) { first.push_back(int(points.size())), name.push_back(named); }
+  int size() const { return int(name.size()); }
 };
 
 class Tree {
  public:
-  // A box is named by its slot: box_lanes times its node, and its lane.
+  // A box is named by its slot: box_lanes times its node, and its lane. The first node has one.
   static constexpr int root = 0;
 
   Tree() = default;
 
-  // boxes: relative to the body's centre in units of its radius, of all that the items may name.
-  Tree(std::vector<Box> boxes, std::vector<int> items) : boxes_(std::move(boxes)) {
+  explicit Tree(const Items& items) {
+    std::vector<int> order(std::size_t(items.size()));
+    for (int i = 0; i < items.size(); ++i) {
+      order[std::size_t(i)] = i;
+      Vec3<double> sum;
+      for (int j = items.first[std::size_t(i)]; j < items.first[std::size_t(i) + 1]; ++j)
+        sum = sum + items.points[std::size_t(j)];
+      middles_.push_back(
+          sum * (1.0 / (items.first[std::size_t(i) + 1] - items.first[std::size_t(i)])));
+    }
     nodes_.push_back({});
-    put(root, items.data(), int(items.size()));
-    boxes_ = {};
+    put(items, root, order.data(), items.size());
+    middles_ = {};
   }
 
   const BoxNode& node(int i) const { return nodes_[std::size_t(i)]; }
-  int child(int slot) const { return node(slot / box_lanes).child[slot % box_lanes]; }
   std::size_t bytes() const { return nodes_.size() * sizeof(BoxNode); }
 
  private:
   // The items' common box in this slot, and below it their tree. Every node but the last of a level
   // is full: its children hold as many items as trees of a height can.
-  void put(int slot, int* items, int n) {
-    Box box;
-    for (int i = 0; i < n; ++i) box.add(boxes_[std::size_t(items[i])]);
-    set(slot, box);
-    if (n == 1) return set_child(slot, ~items[0]);
+  void put(const Items& items, int slot, int* order, int n) {
+    set(slot, box_of([&](const auto& take) {
+          for (int i = 0; i < n; ++i)
+            for (int j = items.first[std::size_t(order[i])];
+                 j < items.first[std::size_t(order[i]) + 1]; ++j)
+              take(items.points[std::size_t(j)]);
+        }));
+    if (n == 1) return set_child(slot, ~items.name[std::size_t(order[0])]);
     const int at = int(nodes_.size());
     nodes_.push_back({});
     set_child(slot, at);
     int full = 1;
     while (full < (n + box_lanes - 1) / box_lanes) full *= box_lanes;
     int lane = 0;
-    divide(items, n, full, [&](int* part, int size) { put(box_lanes * at + lane++, part, size); });
+    divide(order, n, full,
+           [&](int* part, int size) { put(items, box_lanes * at + lane++, part, size); });
   }
 
-  // Halves along the longest axis of the centres, at a multiple of `full`.
+  // Halves along the longest axis of the middles, at a multiple of `full`.
   template <class Take>
-  void divide(int* items, int n, int full, const Take& take) {
-    if (n <= full) return take(items, n);
+  void divide(int* order, int n, int full, const Take& take) {
+    if (n <= full) return take(order, n);
     const int half = ((n + full - 1) / full + 1) / 2 * full;
-    Box centres;
-    for (int i = 0; i < n; ++i) centres.add(twice_centre(items[i]));
-    const Vec3<double> d = centres.hi - centres.lo;
-    const auto axis = d.x >= d.y && d.x >= d.z ? &Vec3<double>::x
-                      : d.y >= d.z             ? &Vec3<double>::y
-                                               : &Vec3<double>::z;
-    std::nth_element(items, items + half, items + n, [&](int i, int j) {
-      return twice_centre(i).*axis < twice_centre(j).*axis;
+    const auto middle = [&](int i) -> const Vec3<double>& { return middles_[std::size_t(i)]; };
+    const Vec3<double> axis = box_of([&](const auto& point) {
+                                for (int i = 0; i < n; ++i) point(middle(order[i]));
+                              }).longest();
+    std::nth_element(order, order + half, order + n, [&](int i, int j) {
+      return dot(axis, middle(i)) < dot(axis, middle(j));
     });
-    divide(items, half, full, take);
-    divide(items + half, n - half, full, take);
+    divide(order, half, full, take);
+    divide(order + half, n - half, full, take);
   }
 
-  Vec3<double> twice_centre(int item) const {
-    const Box& b = boxes_[std::size_t(item)];
-    return b.lo + b.hi;
-  }
-
-  // Coordinates are at most 1: the centre is rounded by 2^-24, the extent by less than is added.
+  // Coordinates are at most 1: with the centre and the axes rounded, a point of the box is off by
+  // 5 units of 2^-24 along each axis, and the extent by 1: less than is added.
   void set(int slot, const Box& box) {
-    const Vec3<double> c = (box.lo + box.hi) * 0.5, e = (box.hi - box.lo) * 0.5;
-    const double centre[3] = {c.x, c.y, c.z}, extent[3] = {e.x, e.y, e.z};
     BoxNode& node = nodes_[std::size_t(slot / box_lanes)];
+    const int lane = slot % box_lanes;
+    const double extent[3] = {box.extent.x, box.extent.y, box.extent.z};
     for (int i = 0; i < 3; ++i) {
-      node.centre[i][slot % box_lanes] = float(centre[i]);
-      node.extent[i][slot % box_lanes] = float(extent[i] + 0x1p-22);
+      const float at[3] = {float(box.axis[i].x), float(box.axis[i].y), float(box.axis[i].z)};
+      for (int k = 0; k < 3; ++k) node.axis[3 * i + k][lane] = at[k];
+      node.extent[i][lane] = float(extent[i] + 0x1p-20);
     }
+    node.centre[0][lane] = float(box.centre.x), node.centre[1][lane] = float(box.centre.y),
+    node.centre[2][lane] = float(box.centre.z);
   }
   void set_child(int slot, int child) {
     nodes_[std::size_t(slot / box_lanes)].child[slot % box_lanes] = child;
   }
 
-  std::vector<Box> boxes_;
+  std::vector<Vec3<double>> middles_;
   std::vector<BoxNode> nodes_;
 };
 
-// From one body's axes and centre to another's: x y is r x + between, in units of the sum of the
+// From one body's axes and centre to another's: x is r x + between, in units of the sum of the
 // radii. size_x, size_y: the radii of the two.
 struct BoxPose {
   float r[9], between[3], size_x, size_y;
@@ -114,27 +120,27 @@ struct BoxPose {
     }
   }
 
-  // In units u = 2^-24 of the sum of the radii, of which no coordinate here exceeds 2: the entries
-  // of r are off by u, sums of three products by 5 u besides, `between` by 2 u, and each scaled
-  // centre or extent by 2 u. Along an axis of the node all this is less than 20 u, along one of
-  // the box less than 40 u. The margin is 128 u.
-  static constexpr float margin = 0x1p-17f;
-
-  void prepare(PosedBox& to) const {
-    for (int i = 0; i < 9; ++i) to.r[i] = r[i], to.size_of_r[i] = std::fabs(r[i]);
-    to.size = size_y;
-  }
+  // In units u = 2^-24 of the sum of the radii; no coordinate here exceeds 2. r is off by u an
+  // entry, so turned axes and centres by 8 u with their sums, `between` by 2 u and the differences
+  // of centres by 14 u in all. Products of two such axes are off by 14 u, of an axis and a
+  // difference, of a length up to 4, by 60 u; three products of extents by 50 u. The margin is 256 u.
+  static constexpr float margin = 0x1p-16f;
 
   void place(const BoxNode& node, int lane, PosedBox& to) const {
-    float c[3], e[3];
-    for (int i = 0; i < 3; ++i)
-      c[i] = node.centre[i][lane] * size_x, e[i] = node.extent[i][lane] * size_x;
+    const auto turn = [this](const float* v, float* w) {
+      for (int i = 0; i < 3; ++i)
+        w[i] = r[3 * i] * v[0] + r[3 * i + 1] * v[1] + r[3 * i + 2] * v[2];
+    };
+    float c[3];
     for (int i = 0; i < 3; ++i) {
-      const float *m = r + 3 * i, *s = to.size_of_r + 3 * i;
-      to.centre[i] = m[0] * c[0] + m[1] * c[1] + m[2] * c[2] + between[i];
-      to.extent[i] = s[0] * e[0] + s[1] * e[1] + s[2] * e[2] + margin;
-      to.own[i] = e[i] + margin;
+      c[i] = node.centre[i][lane] * size_x, to.extent[i] = node.extent[i][lane] * size_x + margin;
+      const float axis[3] = {node.axis[3 * i][lane], node.axis[3 * i + 1][lane],
+                             node.axis[3 * i + 2][lane]};
+      turn(axis, to.axis + 3 * i);
     }
+    turn(c, to.centre);
+    for (int i = 0; i < 3; ++i) to.centre[i] += between[i];
+    to.size = size_y, to.margin = margin;
   }
 };
 
@@ -150,8 +156,7 @@ bool meet_in_trees(const Tree& a, const Tree& b, const BoxPose& forth, const Box
   Pair stack[24 * box_lanes];
   int n = 0;
   stack[n++] = {Tree::root, Tree::root};
-  PosedBox in_b, in_a;
-  forth.prepare(in_b), back.prepare(in_a);
+  PosedBox box;
   while (n > 0) {
     const Pair at = stack[--n];
     const BoxNode &node_a = a.node(at.a / box_lanes), &node_b = b.node(at.b / box_lanes);
@@ -170,11 +175,11 @@ bool meet_in_trees(const Tree& a, const Tree& b, const BoxPose& forth, const Box
     alignas(32) float depth[box_lanes];
     unsigned found;
     if (open_b) {
-      forth.place(node_a, lane_a, in_b);
-      found = boxes_meet(b.node(child_b), in_b, depth);
+      forth.place(node_a, lane_a, box);
+      found = boxes_meet(b.node(child_b), box, depth);
     } else {
-      back.place(node_b, lane_b, in_a);
-      found = boxes_meet(a.node(child_a), in_a, depth);
+      back.place(node_b, lane_b, box);
+      found = boxes_meet(a.node(child_a), box, depth);
     }
     pairs += box_lanes;
     const int first = n;
@@ -188,6 +193,33 @@ bool meet_in_trees(const Tree& a, const Tree& b, const BoxPose& forth, const Box
     }
   }
   return false;
+}
+
+// Calls `take` with the items whose boxes a ray along x may meet that ends four radii on. margin: of
+// where it runs, besides rounding.
+template <class Take>
+void meet_ray(const Tree& tree, const Vec3<double>& from, double margin, std::int64_t& pairs,
+              const Take& take) {
+  const float half = 3, wide = float(margin) + BoxPose::margin;
+  const PosedBox ray{{float(from.x) + half, float(from.y), float(from.z)},
+                     {half + wide, wide, wide},
+                     {1, 0, 0, 0, 1, 0, 0, 0, 1},
+                     1,
+                     4 * BoxPose::margin};
+  int stack[12 * box_lanes], n = 0;
+  stack[n++] = Tree::root;
+  while (n > 0) {
+    const BoxNode& node = tree.node(stack[--n]);
+    alignas(32) float depth[box_lanes];
+    pairs += box_lanes;
+    for (unsigned found = boxes_meet(node, ray, depth); found; found &= found - 1) {
+      const int child = node.child[std::countr_zero(found)];
+      if (child < 0)
+        take(~child);
+      else
+        stack[n++] = child;
+    }
+  }
 }
 
 }  // namespace ofg::verified

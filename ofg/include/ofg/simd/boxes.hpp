@@ -10,19 +10,18 @@ namespace ofg {
 
 constexpr int box_lanes = 8;
 
-// Boxes along the axes of a body, relative to its centre in units of its radius. child: of a lane,
-// a node, or ~item; 0 where the lane is empty.
+// Oriented boxes relative to a body's centre in units of its radius: all c + sum of x_k a_k with
+// |x_k| <= extent[k]; axis[3 k] to axis[3 k + 2] are a_k. child: of a lane, a node, or ~item; 0 where
+// the lane is empty.
 struct alignas(32) BoxNode {
-  float centre[3][box_lanes], extent[3][box_lanes];
+  float centre[3][box_lanes], extent[3][box_lanes], axis[9][box_lanes];
   int child[box_lanes];
 };
 
-// A box in the axes of the node's body, in units of the sum of the radii. r: from the box's own
-// axes to those, by rows. extent: of its bounding box there, and own: in its own axes, each with
-// the margin for rounding. size: of the node's body's radius.
+// A box in the axes of the node's body, in units of the sum of the radii. extent: with the margin
+// for rounding. size: of the node's body's radius.
 struct PosedBox {
-  float centre[3], extent[3], own[3];
-  float r[9], size_of_r[9], size;
+  float centre[3], extent[3], axis[9], size, margin;
 };
 
 }  // namespace ofg

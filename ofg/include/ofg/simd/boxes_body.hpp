@@ -7,32 +7,38 @@
 // kernels_body.hpp: no standard library, the same roundings at every width.
 namespace ofg::OFG_ISA {
 
-// Along the three axes of the node and the three of the single box. Margins are in the posed
-// extents of the single box.
+template <class V>
+static inline __attribute__((always_inline)) V size_of_each(V x) {
+  return x < 0 ? -x : x;
+}
+
+// Along the three axes of each box and the three of the single one.
 static inline unsigned boxes_meet(const BoxNode& node, const PosedBox& box, float* depth) {
   typedef float V __attribute__((vector_size(OFG_BYTES)));
   typedef int I __attribute__((vector_size(OFG_BYTES)));
   constexpr int w = OFG_BYTES / 4;
+  const float* p = box.axis;
   unsigned found = 0;
   for (int l = 0; l < box_lanes; l += w) {
-    V d[3], e[3], least = {};
+    const auto at = [l](const float* x) { return *reinterpret_cast<const V*>(x + l); };
+    V d[3], e[3], reach[3] = {}, least = {};
     for (int i = 0; i < 3; ++i) {
-      d[i] = *reinterpret_cast<const V*>(node.centre[i] + l) * box.size - box.centre[i];
-      e[i] = *reinterpret_cast<const V*>(node.extent[i] + l) * box.size;
+      d[i] = at(node.centre[i]) * box.size - box.centre[i];
+      e[i] = at(node.extent[i]) * box.size;
     }
-    const auto along = [&](V at, V reach) {
-      const V far = at < 0 ? -at : at;
-      return reach - far;
-    };
-    for (int i = 0; i < 3; ++i) {
-      const V gap = along(d[i], e[i] + box.extent[i]);
-      least = i == 0 ? gap : gap < least ? gap : least;
+    for (int k = 0; k < 3; ++k) {
+      const V x = at(node.axis[3 * k]), y = at(node.axis[3 * k + 1]), z = at(node.axis[3 * k + 2]);
+      V own = e[k] + box.margin;
+      for (int i = 0; i < 3; ++i) {
+        const V turned = size_of_each(x * p[3 * i] + y * p[3 * i + 1] + z * p[3 * i + 2]);
+        own += turned * box.extent[i], reach[i] += turned * e[k];
+      }
+      const V gap = own - size_of_each(x * d[0] + y * d[1] + z * d[2]);
+      least = k == 0 ? gap : gap < least ? gap : least;
     }
     for (int i = 0; i < 3; ++i) {
-      const V at = d[0] * box.r[i] + d[1] * box.r[3 + i] + d[2] * box.r[6 + i],
-              reach = e[0] * box.size_of_r[i] + e[1] * box.size_of_r[3 + i] +
-                      e[2] * box.size_of_r[6 + i] + box.own[i];
-      const V gap = along(at, reach);
+      const V far = size_of_each(d[0] * p[3 * i] + d[1] * p[3 * i + 1] + d[2] * p[3 * i + 2]),
+              gap = reach[i] + box.extent[i] - far;
       least = gap < least ? gap : least;
     }
     *reinterpret_cast<V*>(depth + l) = least;
