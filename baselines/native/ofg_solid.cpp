@@ -2,21 +2,37 @@
 //
 // SPDX-License-Identifier: MIT
 
-// Verified Opposing Face Geometry of closed surfaces, in each instruction set of its boxes. Convex
-// bodies are asked as surfaces too, as by the other engines' meshes.
+// Verified Opposing Face Geometry of closed surfaces, and of unions by their pieces, in each
+// instruction set. As surfaces, convex bodies and the faces of unions are asked too, as by the other
+// engines' meshes.
 #include "lane.hpp"
 #include "ofg/verified_solid.hpp"
 
 namespace {
 
-struct Solids final : lane::Surfaces {
+std::vector<ofg::Vec3<double>> vertices_of(const lane::Body& body) {
+  const auto& v = body.vertices;
+  std::vector<ofg::Vec3<double>> all;
+  for (std::size_t i = 0; i < v.size(); i += 3) all.emplace_back(v[i], v[i + 1], v[i + 2]);
+  return all;
+}
+
+ofg::verified::Triangles faces_of(const lane::Body& body) {
+  const auto& f = body.faces;
+  ofg::verified::Triangles all;
+  for (std::size_t i = 0; i < f.size(); i += 3) all.push_back({f[i], f[i + 1], f[i + 2]});
+  return all;
+}
+
+template <class Base>
+struct Solids final : Base {
   const ofg::Isa kernels;
   std::vector<ofg::verified::Solid> bodies;
   std::vector<lane::Case> cases;
   std::vector<ofg::Pose> poses_a, poses_b;
 
-  explicit Solids(ofg::Isa set) : Surfaces("ofg-verified-mesh"), kernels(set) {
-    isa = set == ofg::Isa::sse2 ? "SSE2" : "AVX2";
+  Solids(const char* name, ofg::Isa set) : Base(name), kernels(set) {
+    this->isa = set == ofg::Isa::sse2 ? "SSE2" : set == ofg::Isa::avx2 ? "AVX2" : "AVX-512";
   }
 
   static ofg::Pose pose(const lane::Pose& p) {
@@ -24,13 +40,12 @@ struct Solids final : lane::Surfaces {
   }
 
   static ofg::verified::Solid solid(const lane::Body& body) {
-    const auto& v = body.vertices;
-    const auto& f = body.faces;
-    std::vector<ofg::Vec3<double>> vertices;
-    ofg::verified::Triangles faces;
-    for (std::size_t i = 0; i < v.size(); i += 3) vertices.emplace_back(v[i], v[i + 1], v[i + 2]);
-    for (std::size_t i = 0; i < f.size(); i += 3) faces.push_back({f[i], f[i + 1], f[i + 2]});
-    return ofg::verified::Solid::closed(std::move(vertices), std::move(faces));
+    if (!std::is_same_v<Base, lane::Unions>)
+      return ofg::verified::Solid::closed(vertices_of(body), faces_of(body));
+    ofg::verified::Hulls pieces;
+    for (const auto& piece : body.pieces)
+      pieces.emplace_back(vertices_of(piece), faces_of(piece));
+    return ofg::verified::Solid(std::move(pieces));
   }
 
   void build(const std::vector<lane::Body>& all, const std::vector<lane::Case>& asked) override {
@@ -40,6 +55,7 @@ struct Solids final : lane::Surfaces {
       poses_a.push_back(pose(c.pose_a)), poses_b.push_back(pose(c.pose_b));
   }
 
+  // A set that the boxes have no kernel of takes the widest that they have.
   void turn() override { ofg::set_isa(kernels), ofg::set_boxes_isa(kernels); }
 
   lane::Verdict ask(std::size_t i) override {
@@ -51,6 +67,9 @@ struct Solids final : lane::Surfaces {
 }  // namespace
 
 extern "C" void lane_engines(lane::Engines& engines) {
-  for (const auto isa : {ofg::Isa::sse2, ofg::Isa::avx2})
-    if (ofg::set_isa(isa)) engines.push_back(std::make_unique<Solids>(isa));
+  for (const auto isa : {ofg::Isa::sse2, ofg::Isa::avx2}) {
+    if (!ofg::set_isa(isa)) continue;  // the machine lacks it
+    engines.push_back(std::make_unique<Solids<lane::Surfaces>>("ofg-verified-mesh", isa));
+    engines.push_back(std::make_unique<Solids<lane::Unions>>("ofg-verified", isa));
+  }
 }
