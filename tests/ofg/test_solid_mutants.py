@@ -40,7 +40,7 @@ MUTANTS = {
         (SURFACE, "if (!seen[std::size_t(shell)]) shells", "if (shells.empty()) shells")
     ],
     "edges of one body alone": [
-        (CROSSING, "if (above_a[k] != above_a[l] && passes(q[k], q[l], p_)) return true;", "")
+        (CROSSING, "if (above_a[k] != above_a[l] && sides_.passes(q[k], q[l], p_)) return true;", "")
     ],
     "no exact fallback of a face and a piece": [
         (SOLID, "return meets_exactly(hull, triangle, ph, pt, axis);", "return false;")

@@ -30,8 +30,8 @@ class Crossing {
     if (!straddles(q, p_, above_b) || !straddles(p_, q, above_a)) return false;
     for (int k = 0; k < 3; ++k) {
       const int l = (k + 1) % 3;
-      if (above_b[k] != above_b[l] && passes(p_[k], p_[l], q)) return true;
-      if (above_a[k] != above_a[l] && passes(q[k], q[l], p_)) return true;
+      if (above_b[k] != above_b[l] && sides_.passes(p_[k], p_[l], q)) return true;
+      if (above_a[k] != above_a[l] && sides_.passes(q[k], q[l], p_)) return true;
     }
     return false;
   }
@@ -53,14 +53,14 @@ class Crossing {
     const Vec3<double> end = beyond(target, local), far = end - target.centre;
     Point to;
     to.at = is_b ? far : at_.r * far + at_.between;
-    to.given[0] = &end, to.in_b = is_b, to.moves = from.moves;
+    to.given = &end, to.in_b = is_b, to.moves = from.moves;
     int sum = 0;
     const auto face = [&](int i) {
       Point q[3];
       for (int k = 0; k < 3; ++k)
         q[k] = is_b ? vertex_of_b(target.index(i, k)) : vertex_of_a(target.index(i, k));
       const int side = sides_(q[0], q[1], q[2], from);
-      if (side != sides_(q[0], q[1], q[2], to) && passes(from, to, q)) sum += side;
+      if (side != sides_(q[0], q[1], q[2], to) && sides_.passes(from, to, q)) sum += side;
     };
     if (!at_.sure) {
       for (const int i : target.broad) face(i);
@@ -72,21 +72,15 @@ class Crossing {
 
  private:
   Point vertex_of_a(std::size_t v) const {
-    return {at_.r * a_.cloud[v] + at_.between, {&a_.vertices[v]}, 1, false, false};
+    return {at_.r * a_.cloud[v] + at_.between, &a_.vertices[v], 1, false, false, true};
   }
   Point vertex_of_b(std::size_t v) const {
-    return {b_.cloud[v], {&b_.vertices[v]}, 1, true, true};
+    return {b_.cloud[v], &b_.vertices[v], 1, true, true, true};
   }
 
   bool straddles(const Point (&plane)[3], const Point (&p)[3], int (&side)[3]) {
-    for (int k = 0; k < 3; ++k) side[k] = sides_(plane[0], plane[1], plane[2], p[k]);
+    sides_.of_plane(plane, p, side);
     return side[0] != side[1] || side[1] != side[2];
-  }
-
-  // Does a line through the plane of a face pass through the face?
-  bool passes(const Point& p, const Point& q, const Point (&face)[3]) {
-    const int side = sides_(p, q, face[0], face[1]);
-    return sides_(p, q, face[1], face[2]) == side && sides_(p, q, face[2], face[0]) == side;
   }
 
   const Surface &a_, &b_;

@@ -7,6 +7,7 @@
 // they are given. Where the answer is "on the plane", one body gives way by less than any number.
 #pragma once
 #include <optional>
+#include <unordered_map>
 
 #include "verified_exact.hpp"
 
@@ -33,14 +34,15 @@ struct Between {
   }
 };
 
-// The mean of one given point or of four. at: in B's axes relative to its centre, within a Between's
-// slack.
+// The mean of n given points in a row, n a power of two. at: in B's axes relative to its centre,
+// within a Between's slack.
 struct Point {
   Vec3<double> at;
-  const Vec3<double>* given[4];
+  const Vec3<double>* given;
   int n = 1;
-  bool in_b = false;   // are the given ones in B's axes, or in A's?
-  bool moves = false;  // with B
+  bool in_b = false;    // are the given ones in B's axes, or in A's?
+  bool moves = false;   // with B
+  bool vertex = false;  // of a body, so that what is given stays where it is
 };
 
 class Sides {
@@ -53,12 +55,44 @@ class Sides {
   // The sign of det(b - a, c - a, d - a), where B is moved by (e, e^2, e^3) for a positive e smaller
   // than any number (Edelsbrunner and Muecke, Simulation of Simplicity, 1990). 0 only where two
   // lines among the points are parallel, or three points in line.
-  //
-  // Each point is off by the slack s, so differences by 2 s, and their determinant by
-  // 2 s (EF + FG + GE) with E, F, G the lengths and 2 s; rounding adds 12 u EFG (holds_origin).
   int operator()(const Point& a, const Point& b, const Point& c, const Point& d) {
     const Vec3<double> e = b.at - a.at, f = c.at - a.at, g = d.at - a.at;
-    const double det = dot(cross(e, f), g), x = size(e), y = size(f), z = size(g);
+    return settled(dot(cross(e, f), g), size(e), size(f), size(g), a, b, c, d);
+  }
+
+  // The same of a plane and three points.
+  void of_plane(const Point (&plane)[3], const Point (&p)[3], int (&side)[3]) {
+    const Vec3<double> o = plane[0].at, e = plane[1].at - o, f = plane[2].at - o, n = cross(e, f);
+    const double x = size(e), y = size(f);
+    for (int k = 0; k < 3; ++k) {
+      const Vec3<double> g = p[k].at - o;
+      side[k] = settled(dot(n, g), x, y, size(g), plane[0], plane[1], plane[2], p[k]);
+    }
+  }
+
+  // Does the line from p to q pass between the corners of a face, whose plane it passes?
+  bool passes(const Point& p, const Point& q, const Point (&face)[3]) {
+    const Vec3<double> d = q.at - p.at;
+    Vec3<double> w[3];
+    double reach[3];
+    for (int k = 0; k < 3; ++k) w[k] = face[k].at - p.at, reach[k] = size(w[k]);
+    const double along = size(d);
+    int first = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int l = (k + 1) % 3, side = settled(dot(cross(d, w[k]), w[l]), along, reach[k],
+                                                reach[l], p, q, face[k], face[l]);
+      if (k == 0) first = side;
+      if (side != first) return false;
+    }
+    return true;
+  }
+
+ private:
+  // Each point is off by the slack s, so differences by 2 s, and their determinant by
+  // 2 s (xy + yz + zx) with x, y, z no less than the lengths and 2 s; rounding adds 12 u xyz
+  // (holds_origin).
+  int settled(double det, double x, double y, double z, const Point& a, const Point& b,
+              const Point& c, const Point& d) {
     const double doubt =
         2 * slack_ * (x * y + y * z + z * x) + 16 * unit_roundoff * x * y * z + 1e-290;
     if (det > doubt) return 1;
@@ -67,7 +101,6 @@ class Sides {
     return exactly(a, b, c, d);
   }
 
- private:
   // What is exact is in the world, relative to B's position, times 4 |q_A|^2 |q_B|^2.
   struct Frames {
     Number q[2][4], factor[2];
@@ -91,15 +124,23 @@ class Sides {
 
   Vector place(const Point& point) const {
     Vector sum;
-    for (int i = 0; i < point.n; ++i) sum = sum + Vector(*point.given[i]);
+    for (int i = 0; i < point.n; ++i) sum = sum + Vector(point.given[i]);
     const int k = point.in_b ? 1 : 0;
     const Vector v = turned(sum * Number(4.0 / point.n), frames_->q[k]) * frames_->factor[k];
     return point.in_b ? v : v + frames_->way;
   }
 
+  // Vertices are asked about again and again where surfaces lie on one another.
+  Vector placed(const Point& point) {
+    if (!point.vertex) return place(point);
+    auto& kept = kept_[point.given];
+    if (!kept) kept = place(point);
+    return *kept;
+  }
+
   int exactly(const Point& a, const Point& b, const Point& c, const Point& d) {
     if (!frames_) frames_ = frames_of(pa_, pb_);
-    const Vector o = place(a), e = place(b) - o, f = place(c) - o, g = place(d) - o;
+    const Vector o = placed(a), e = placed(b) - o, f = placed(c) - o, g = placed(d) - o;
     const Vector ef = cross(e, f);
     if (const int s = dot(ef, g).sign()) return s;
     // The determinant is linear in the move, whose multiples are in one direction.
@@ -111,6 +152,7 @@ class Sides {
   Pose pa_, pb_;
   double slack_;
   std::optional<Frames> frames_;
+  std::unordered_map<const Vec3<double>*, std::optional<Vector>> kept_;
 };
 
 }  // namespace ofg::verified

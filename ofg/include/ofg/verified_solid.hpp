@@ -161,11 +161,11 @@ inline Answer mixed(const Solid& a, const Solid& b, const Between& at, const Pos
   for (std::size_t i = 0; i < b.pieces.size() && !answer.hit; ++i) {
     // The centre of its tetrahedron is interior, and on no face that it holds no point of.
     const Hull& hull = b.pieces[i];
-    Point inside;
-    inside.n = 4, inside.in_b = inside.moves = true;
+    Vec3<double> corner[4];
+    Point inside{{}, corner, 4, true, true};
     for (std::size_t k = 0; k < 4; ++k) {
-      inside.given[k] = &hull.vertices[std::size_t(hull.corners[k])];
-      inside.at = inside.at + (*inside.given[k] - b.centre) * 0.25;
+      corner[k] = hull.vertices[std::size_t(hull.corners[k])];
+      inside.at = inside.at + (corner[k] - b.centre) * 0.25;
     }
     if (crossing.winding(inside, a.surface, false, answer.counts.evaluated) != 0)
       answer.hit = true, answer.found = Found::inside, answer.piece_b = int(i);

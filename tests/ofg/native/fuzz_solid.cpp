@@ -141,7 +141,7 @@ const char* one_of_sides(Random& r) {
     const bool moves = whole(r, 0, 1);
     const int x = whole(r, -2, 2), y = whole(r, -2, 2), z = whole(r, -1, 1);
     given[i] = V(x, y, z);
-    points[i] = {given[i], {&given[i]}, 1, moves, moves};
+    points[i] = {given[i], &given[i], 1, moves, moves};
     const judge::Quad by = moves ? e : 0;
     moved[i] = {x + by, y + by * e, z + by * e * e};
   }
