@@ -39,9 +39,8 @@ MUTANTS = {
     "one shell for all": [
         (SURFACE, "if (!seen[std::size_t(shell)]) shells", "if (shells.empty()) shells")
     ],
-    "edges of one body alone": [
-        (CROSSING, "if (above_a[k] != above_a[l] && sides_.passes(q[k], q[l], p_)) return true;", "")
-    ],
+    "one sign of two": [(CROSSING, " && sides_(a, a2, b2, b) < 0;", ";")],
+    "faces wound one way": [(CROSSING, "turn_a = above_a[n] < 0", "turn_a = false")],
     "no exact fallback of a face and a piece": [
         (SOLID, "return meets_exactly(hull, triangle, ph, pt, axis);", "return false;")
     ],

@@ -20,20 +20,22 @@ class Crossing {
 
   // Do these faces cross? B gives way where they only touch.
   bool faces(int i, int j) {
-    if (i != face_a_) {
-      face_a_ = i;
-      for (int k = 0; k < 3; ++k) p_[k] = vertex_of_a(a_.index(i, k));
-    }
-    Point q[3];
-    for (int k = 0; k < 3; ++k) q[k] = vertex_of_b(b_.index(j, k));
+    // built where they stand: copies of what was just written in parts make the processor wait
+    const Point p[3] = {vertex_of_a(a_.index(i, 0)), vertex_of_a(a_.index(i, 1)),
+                        vertex_of_a(a_.index(i, 2))};
+    const Point q[3] = {vertex_of_b(b_.index(j, 0)), vertex_of_b(b_.index(j, 1)),
+                        vertex_of_b(b_.index(j, 2))};
     int above_b[3], above_a[3];
-    if (!straddles(q, p_, above_b) || !straddles(p_, q, above_a)) return false;
-    for (int k = 0; k < 3; ++k) {
-      const int l = (k + 1) % 3;
-      if (above_b[k] != above_b[l] && sides_.passes(p_[k], p_[l], q)) return true;
-      if (above_a[k] != above_a[l] && sides_.passes(q[k], q[l], p_)) return true;
-    }
-    return false;
+    if (!straddles(q, p, above_b) || !straddles(p, q, above_a)) return false;
+    // Each plane cuts the other face in a segment, both on one line; two signs say whether these
+    // overlap (Guigue and Devillers 2003). a, b: the vertices alone
+    // on their sides.
+    const int m = alone(above_b), n = alone(above_a);
+    const bool turn_a = above_a[n] < 0, turn_b = above_b[m] < 0;
+    const Point &a = p[m], &a1 = p[(m + (turn_a ? 2 : 1)) % 3],
+                &a2 = p[(m + (turn_a ? 1 : 2)) % 3], &b = q[n],
+                &b1 = q[(n + (turn_b ? 2 : 1)) % 3], &b2 = q[(n + (turn_b ? 1 : 2)) % 3];
+    return sides_(a, a1, b, b1) < 0 && sides_(a, a2, b2, b) < 0;
   }
 
   // Where no faces cross, a part of a surface is inside the other solid where any of its vertices
@@ -78,6 +80,10 @@ class Crossing {
     return {b_.cloud[v], &b_.vertices[v], 1, true, true, true};
   }
 
+  static int alone(const int (&side)[3]) {
+    return side[0] == side[1] ? 2 : side[0] == side[2] ? 1 : 0;
+  }
+
   bool straddles(const Point (&plane)[3], const Point (&p)[3], int (&side)[3]) {
     sides_.of_plane(plane, p, side);
     return side[0] != side[1] || side[1] != side[2];
@@ -86,8 +92,6 @@ class Crossing {
   const Surface &a_, &b_;
   const Between& at_;
   Sides& sides_;
-  int face_a_ = -1;
-  Point p_[3];
 };
 
 }  // namespace ofg::verified::detail
