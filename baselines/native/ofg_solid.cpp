@@ -2,9 +2,8 @@
 //
 // SPDX-License-Identifier: MIT
 
-// Verified Opposing Face Geometry of closed surfaces, and of unions by their pieces, in each
-// instruction set. As surfaces, convex bodies and the faces of unions are asked too, as by the other
-// engines' meshes.
+// Verified Opposing Face Geometry of closed meshes and of unions, in each instruction set. Convex
+// bodies are asked elsewhere.
 #include "lane.hpp"
 #include "ofg/verified_solid.hpp"
 
@@ -24,27 +23,28 @@ ofg::verified::Triangles faces_of(const lane::Body& body) {
   return all;
 }
 
-template <class Base>
-struct Solids final : Base {
+struct Solids final : lane::Unions {
   const ofg::Isa kernels;
   std::vector<ofg::verified::Solid> bodies;
   std::vector<lane::Case> cases;
   std::vector<ofg::Pose> poses_a, poses_b;
 
-  Solids(const char* name, ofg::Isa set) : Base(name), kernels(set) {
-    this->isa = set == ofg::Isa::sse2 ? "SSE2" : set == ofg::Isa::avx2 ? "AVX2" : "AVX-512";
+  explicit Solids(ofg::Isa set) : Unions("ofg-verified"), kernels(set) {
+    const char* const sets[] = {"SSE2", "AVX2", "AVX-512"};
+    isa = sets[int(set)];
   }
+
+  bool takes_meshes() const override { return true; }
 
   static ofg::Pose pose(const lane::Pose& p) {
     return {{p.q[0], p.q[1], p.q[2], p.q[3]}, {p.p[0], p.p[1], p.p[2]}};
   }
 
   static ofg::verified::Solid solid(const lane::Body& body) {
-    if (!std::is_same_v<Base, lane::Unions>)
+    if (body.pieces.empty())
       return ofg::verified::Solid::closed(vertices_of(body), faces_of(body));
     ofg::verified::Hulls pieces;
-    for (const auto& piece : body.pieces)
-      pieces.emplace_back(vertices_of(piece), faces_of(piece));
+    for (const auto& piece : body.pieces) pieces.emplace_back(vertices_of(piece), faces_of(piece));
     return ofg::verified::Solid(std::move(pieces));
   }
 
@@ -67,9 +67,6 @@ struct Solids final : Base {
 }  // namespace
 
 extern "C" void lane_engines(lane::Engines& engines) {
-  for (const auto isa : {ofg::Isa::sse2, ofg::Isa::avx2}) {
-    if (!ofg::set_isa(isa)) continue;  // the machine lacks it
-    engines.push_back(std::make_unique<Solids<lane::Surfaces>>("ofg-verified-mesh", isa));
-    engines.push_back(std::make_unique<Solids<lane::Unions>>("ofg-verified", isa));
-  }
+  for (const auto isa : {ofg::Isa::sse2, ofg::Isa::avx2, ofg::Isa::avx512})
+    if (ofg::set_isa(isa)) engines.push_back(std::make_unique<Solids>(isa));  // the machine has it
 }
