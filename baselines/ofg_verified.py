@@ -20,14 +20,15 @@ from .sampling import Discrete, Substeps
 
 class Verified(Discrete):
     """Opposing faces by a table of directions, a portal over their vertices, an answer that the
-    whole bodies confirm, and exact arithmetic where doubles cannot. Unions by pairs of pieces.
+    whole bodies confirm, and exact arithmetic where doubles cannot. Unions by pairs of pieces and
+    meshes by pairs of faces, which trees of boxes exclude or which are asked.
     """
 
     name = "ofg-verified"
     engine = "ofg"
     imports = "ofg"
     configuration = "best effort"
-    bodies = frozenset({"convex", "union"})
+    bodies = frozenset({"convex", "union", "mesh"})
     solid = True
     places_b = True
     guarantee = "every answer is proved, in doubles by more than their rounding or exactly"
@@ -57,6 +58,7 @@ class Portal(Verified):
 
     name = "ofg-mpr"
     configuration = "alternative"
+    bodies = frozenset({"convex", "union"})  # a mesh has no opposing faces to leave out
     selection = False
 
 

@@ -29,8 +29,11 @@ struct Contestant {
 // The blocks of which the engine answers every case.
 inline std::vector<std::size_t> blocks_of(const Engine& engine, const CaseFile& file) {
   const auto takes = [&](const Case& c) {
-    const bool hulls = file.bodies[c.a].convex && file.bodies[c.b].convex;
-    return engine.answers(c.question) && (hulls || engine.takes_meshes());
+    const Body &a = file.bodies[c.a], &b = file.bodies[c.b];
+    const bool taken = a.convex && b.convex                   ? engine.takes_hulls()
+                       : a.pieces.empty() && b.pieces.empty() ? engine.takes_meshes()
+                                                              : engine.takes_unions();
+    return engine.answers(c.question) && taken;
   };
   std::vector<std::size_t> blocks;
   for (std::size_t i = 0; i < file.cases.size(); i += file.block) {

@@ -27,6 +27,7 @@ struct Floor final : lane::Engine {
   bool answers(lane::Question) const override { return true; }
   bool stands(lane::Mode) const override { return true; }
   bool takes_meshes() const override { return true; }
+  bool takes_unions() const override { return true; }
   void build(const std::vector<lane::Body>&, const std::vector<lane::Case>&) override {}
   lane::Verdict ask(std::size_t) override { return {false}; }
 };
@@ -37,6 +38,7 @@ struct Probe final : lane::Engine {
   Probe() : Engine("(noise probe)") { isa = build_of = ""; }
   bool answers(lane::Question) const override { return true; }
   bool takes_meshes() const override { return true; }
+  bool takes_unions() const override { return true; }
   void build(const std::vector<lane::Body>&, const std::vector<lane::Case>&) override {}
   lane::Verdict ask(std::size_t) override {
     double x = kept;

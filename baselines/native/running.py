@@ -53,8 +53,7 @@ def run(
     """Ask every engine that is built, each in those of `modes` that it knows.
 
     block: so many queries, one after the other, are timed together. core: run on this one.
-    NativeError where the lane is not built or fails. ValueError for a union, Unsupported where both
-    bodies turn.
+    NativeError where the lane is not built or fails. Unsupported where both bodies turn.
     """
     if not (folder / "lane").is_file():
         raise NativeError("The native lane is not built; build it with: ofg-bench native --build")
