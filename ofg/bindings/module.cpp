@@ -20,6 +20,7 @@
 #include "returned.hpp"
 #include "spheres.hpp"
 #include "verified.hpp"
+#include "verified_sweep.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -312,6 +313,7 @@ NB_MODULE(_core, m) {
       .def_rw("earliest", &ofg::Options::earliest)
       .def_rw("screen", &ofg::Options::screen);
   verified::add_to(m);
+  verified_sweep::add_to(m);
   spheres::add_to(m);
   nb::class_<Prepared>(m, "Prepared")
       .def(nb::init<nb::object, nb::object, Doubles, Doubles, const ofg::Options&, int, bool,

@@ -37,6 +37,8 @@ struct Posed {
   double away = 0;   // distance of `between`, as it is, from a point of M, besides
   bool sure = true;  // false where numbers left their range: nothing is known
 
+  Posed() = default;
+
   Posed(const Hull& a, const Hull& b, const Pose& pa, const Pose& pb) {
     const Transform<double> pose = Track(pa, pb).at(0);
     const double sum = a.radius + b.radius,
