@@ -42,13 +42,13 @@ def verified(
     a, b: bodies of any kind. Of unions every pair of pieces, of meshes every pair of faces is
     excluded by the boxes of a tree or asked, the deepest first, until one meets. Two meshes meet
     where faces cross, or where none do and a shell of one lies inside the other. Of two convex
-    bodies or pieces, a table of directions selects the vertices of the faces that oppose each other, a portal tests
-    them, and the answer is verified: a hit by a tetrahedron of differences of points of both that
-    holds the origin by more than rounding, a clear by a plane that the whole bodies confirm by more
-    than rounding. Where these object the selection grows, and what doubles cannot prove is decided
-    exactly on the vertices, quaternions and positions as they are given. Convex bodies, and unions,
-    that only touch are clear. What meshes that only touch are called may not be relied on: there
-    `b` is moved by less than any number, so that no vertex lies on a face.
+    bodies or pieces, a table of directions selects the vertices of the faces that oppose each
+    other, a portal tests them, and the answer is verified: a hit by a tetrahedron of differences of
+    points of both that holds the origin by more than rounding, a clear by a plane that the whole
+    bodies confirm by more than rounding. Where these object the selection grows, and what doubles
+    cannot prove is decided exactly on the vertices, quaternions and positions as they are given.
+    Convex bodies, and unions, that only touch are clear. What meshes that only touch are called may
+    not be relied on: there `b` is moved by less than any number, so that no vertex lies on a face.
 
     Answer.found: "start", with the faces of two convex bodies that oppose each other where the
     portal was left (they need not cross), or those of two meshes that cross. "inside" where

@@ -29,7 +29,7 @@ struct Contestant {
 inline std::vector<std::size_t> blocks_of(const Engine& engine, const CaseFile& file) {
   const auto takes = [&](const Case& c) {
     const Body &a = file.bodies[c.a], &b = file.bodies[c.b];
-    const bool taken = a.convex && b.convex                        ? engine.takes_hulls()
+    const bool taken = a.convex && b.convex                   ? engine.takes_hulls()
                        : a.pieces.empty() && b.pieces.empty() ? engine.takes_meshes()
                                                               : engine.takes_unions();
     return engine.answers(c.question) && taken;

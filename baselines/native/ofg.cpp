@@ -47,8 +47,8 @@ struct Ofg final : lane::Engine {
     bodies.resize(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       const lane::Body& body = all[i];
-      bodies[i].whole = ofg::Mesh<T>(body.vertices.data(), body.n(), body.faces.data(), body.m(),
-                                     body.convex);
+      bodies[i].whole =
+          ofg::Mesh<T>(body.vertices.data(), body.n(), body.faces.data(), body.m(), body.convex);
       bodies[i].close();
     }
     cases = asked;

@@ -41,8 +41,7 @@ struct Solids final : lane::Unions {
   }
 
   static ofg::verified::Solid solid(const lane::Body& body) {
-    if (body.pieces.empty())
-      return ofg::verified::Solid::closed(vertices_of(body), faces_of(body));
+    if (body.pieces.empty()) return ofg::verified::Solid::closed(vertices_of(body), faces_of(body));
     ofg::verified::Hulls pieces;
     for (const auto& piece : body.pieces) pieces.emplace_back(vertices_of(piece), faces_of(piece));
     return ofg::verified::Solid(std::move(pieces));

@@ -13,8 +13,7 @@ struct ParryManifolds;
 ParryShape* parry_hull(const double* vertices, std::size_t n);
 ParryShape* parry_mesh(const double* vertices, std::size_t n, const std::uint32_t* faces,
                        std::size_t m);
-ParryShape* parry_compound(const double* const* vertices, const std::size_t* n,
-                           std::size_t pieces);
+ParryShape* parry_compound(const double* const* vertices, const std::size_t* n, std::size_t pieces);
 void parry_free(ParryShape*);
 bool parry_overlap(const ParryShape* a, const lane::Pose* at, const ParryShape* b,
                    const lane::Pose* bt);

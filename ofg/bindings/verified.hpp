@@ -79,8 +79,8 @@ inline nb::tuple ask_many(const Solid& a, const Solid& b, Doubles pa, Doubles pb
       static_assert(sizeof(ofg::Pose) == given::pose_columns * sizeof(double));
       const auto *u = reinterpret_cast<const ofg::Pose*>(p),
                  *v = reinterpret_cast<const ofg::Pose*>(q);
-      ofg::verified::overlap_many(a.solid.pieces[0], b.solid.pieces[0], u + from, v + from, to - from,
-                                  answers.data() + from);
+      ofg::verified::overlap_many(a.solid.pieces[0], b.solid.pieces[0], u + from, v + from,
+                                  to - from, answers.data() + from);
       for (std::size_t i = from; i < to; ++i) answers[i].piece_a = answers[i].piece_b = 0;
       return;
     }
@@ -118,8 +118,7 @@ struct Prepared {
   }
 
   nb::tuple call() const {
-    const ofg::Answer x =
-        ofg::verified::overlap(a.solid, b.solid, pose_a, pose_b, nullptr, parts);
+    const ofg::Answer x = ofg::verified::overlap(a.solid, b.solid, pose_a, pose_b, nullptr, parts);
     return nb::make_tuple(x.hit, x.time);
   }
 };

@@ -23,7 +23,11 @@ MUTANTS = {
     "no exact fallback": [(SIDES, "return exactly(a, b, c, d);", "return det > 0 ? 1 : -1;")],
     "no margin of doubles": [(SIDES, "if (det > doubt) return 1;", "if (det > 0) return 1;")],
     "points on a plane": [
-        (SIDES, "return n.x.sign() ? n.x.sign() : n.y.sign() ? n.y.sign() : n.z.sign();", "return 0;")
+        (
+            SIDES,
+            "return n.x.sign() ? n.x.sign() : n.y.sign() ? n.y.sign() : n.z.sign();",
+            "return 0;",
+        )
     ],
     "a move along one axis": [
         (SIDES, "n.x.sign() ? n.x.sign() : n.y.sign() ? n.y.sign() : n.z.sign()", "n.x.sign()")

@@ -270,9 +270,7 @@ def test_instruction_sets_threads_and_the_missing_selection_give_equal_hits(hull
             for isa in range(widest + 1):
                 assert _core.set_isa(isa)
                 hits.append(asked(a, b, pa, pb))
-                hits.append(
-                    _core.verified_many(*map(solid_of, (a, b)), pa, pb, None, False, 1)[0]
-                )
+                hits.append(_core.verified_many(*map(solid_of, (a, b)), pa, pb, None, False, 1)[0])
             hits.append(asked(a, b, pa, pb, threads=3))
             assert all(np.array_equal(h, hits[0]) for h in hits) and 0 < hits[0].sum() < n
     finally:

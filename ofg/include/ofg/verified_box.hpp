@@ -3,7 +3,8 @@
 // SPDX-License-Identifier: MIT
 
 // A box about points, in the axes in which it is smaller: those of the body, or those in which the
-// points spread, the last of which is across a surface (Gottschalk, Lin and Manocha, OBBTree, 1996).
+// points spread, the last of which is across a surface (Gottschalk, Lin and Manocha, OBBTree,
+// 1996).
 #pragma once
 #include <cmath>
 #include <vector>

@@ -32,9 +32,8 @@ class Crossing {
     // on their sides.
     const int m = alone(above_b), n = alone(above_a);
     const bool turn_a = above_a[n] < 0, turn_b = above_b[m] < 0;
-    const Point &a = p[m], &a1 = p[(m + (turn_a ? 2 : 1)) % 3],
-                &a2 = p[(m + (turn_a ? 1 : 2)) % 3], &b = q[n],
-                &b1 = q[(n + (turn_b ? 2 : 1)) % 3], &b2 = q[(n + (turn_b ? 1 : 2)) % 3];
+    const Point &a = p[m], &a1 = p[(m + (turn_a ? 2 : 1)) % 3], &a2 = p[(m + (turn_a ? 1 : 2)) % 3],
+                &b = q[n], &b1 = q[(n + (turn_b ? 2 : 1)) % 3], &b2 = q[(n + (turn_b ? 1 : 2)) % 3];
     return sides_(a, a1, b, b1) < 0 && sides_(a, a2, b2, b) < 0;
   }
 

@@ -52,9 +52,9 @@ class Sides {
   Sides(const Pose& pa, const Pose& pb, const Between& at, bool doubles)
       : pa_(pa), pb_(pb), slack_(doubles && at.sure ? at.slack : INFINITY) {}
 
-  // The sign of det(b - a, c - a, d - a), where B is moved by (e, e^2, e^3) for a positive e smaller
-  // than any number (Edelsbrunner and Muecke, Simulation of Simplicity, 1990). 0 only where two
-  // lines among the points are parallel, or three points in line.
+  // The sign of det(b - a, c - a, d - a), where B is moved by (e, e^2, e^3) for a positive e
+  // smaller than any number (Edelsbrunner and Muecke, Simulation of Simplicity, 1990). 0 only where
+  // two lines among the points are parallel, or three points in line.
   int operator()(const Point& a, const Point& b, const Point& c, const Point& d) {
     const Vec3<double> e = b.at - a.at, f = c.at - a.at, g = d.at - a.at;
     return settled(dot(cross(e, f), g), size(e), size(f), size(g), a, b, c, d);

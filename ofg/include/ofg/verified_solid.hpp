@@ -92,7 +92,8 @@ inline Answer unions(const Solid& a, const Solid& b, const Between& at, const Po
                      const Pose& pb, const Parts& parts) {
   Answer all;
   const auto meet = [&](int i, int j) {
-    Answer one = overlap(a.pieces[std::size_t(i)], b.pieces[std::size_t(j)], pa, pb, nullptr, parts);
+    Answer one =
+        overlap(a.pieces[std::size_t(i)], b.pieces[std::size_t(j)], pa, pb, nullptr, parts);
     one.counts.add(all.counts);
     all = one;
     if (all.hit) all.piece_a = i, all.piece_b = j;
@@ -115,8 +116,7 @@ inline Answer surfaces(const Solid& a, const Solid& b, const Between& at, const 
     answer.hit = true, answer.found = Found::start, answer.face_a = i, answer.face_b = j;
     return true;
   };
-  if (!meet_in_pairs(a, b, at, answer.counts, meet) &&
-      crossing.contained(answer.counts.evaluated))
+  if (!meet_in_pairs(a, b, at, answer.counts, meet) && crossing.contained(answer.counts.evaluated))
     answer.hit = true, answer.found = Found::inside;
   answer.counts.steps = 1 + (sides.exact > 0);
   return answer;
@@ -127,7 +127,8 @@ inline Answer surfaces(const Solid& a, const Solid& b, const Between& at, const 
 inline bool holds_part_of(const Hull& hull, const Hull& triangle, const Pose& ph, const Pose& pt,
                           const Parts& parts, Counts& counts) {
   const Posed at(hull, triangle, ph, pt);
-  if (at.sure && length(at.between) > (hull.radius + triangle.radius) * at.unit + at.slack + at.away)
+  if (at.sure &&
+      length(at.between) > (hull.radius + triangle.radius) * at.unit + at.slack + at.away)
     return false;
   Proof proof;
   if (at.sure && parts.doubles && hull.inner > 0)

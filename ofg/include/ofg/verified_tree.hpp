@@ -37,8 +37,8 @@ class Tree {
       Vec3<double> sum;
       for (int j = items.first[std::size_t(i)]; j < items.first[std::size_t(i) + 1]; ++j)
         sum = sum + items.points[std::size_t(j)];
-      middles_.push_back(
-          sum * (1.0 / (items.first[std::size_t(i) + 1] - items.first[std::size_t(i)])));
+      middles_.push_back(sum *
+                         (1.0 / (items.first[std::size_t(i) + 1] - items.first[std::size_t(i)])));
     }
     nodes_.push_back({});
     put(items, root, order.data(), items.size());
@@ -78,9 +78,8 @@ class Tree {
     const Vec3<double> axis = box_of([&](const auto& point) {
                                 for (int i = 0; i < n; ++i) point(middle(order[i]));
                               }).longest();
-    std::nth_element(order, order + half, order + n, [&](int i, int j) {
-      return dot(axis, middle(i)) < dot(axis, middle(j));
-    });
+    std::nth_element(order, order + half, order + n,
+                     [&](int i, int j) { return dot(axis, middle(i)) < dot(axis, middle(j)); });
     divide(order, half, full, take);
     divide(order + half, n - half, full, take);
   }
@@ -123,7 +122,8 @@ struct BoxPose {
   // In units u = 2^-24 of the sum of the radii; no coordinate here exceeds 2. r is off by u an
   // entry, so turned axes and centres by 8 u with their sums, `between` by 2 u and the differences
   // of centres by 14 u in all. Products of two such axes are off by 14 u, of an axis and a
-  // difference, of a length up to 4, by 60 u; three products of extents by 50 u. The margin is 256 u.
+  // difference, of a length up to 4, by 60 u; three products of extents by 50 u. The margin is 256
+  // u.
   static constexpr float margin = 0x1p-16f;
 
   void place(const BoxNode& node, int lane, PosedBox& to) const {
@@ -169,9 +169,8 @@ bool meet_in_trees(const Tree& a, const Tree& b, const BoxPose& forth, const Box
     const auto extent = [](const BoxNode& node, int lane) {
       return node.extent[0][lane] + node.extent[1][lane] + node.extent[2][lane];
     };
-    const bool open_b =
-        child_a < 0 || (child_b >= 0 && extent(node_b, lane_b) * forth.size_y >=
-                                            extent(node_a, lane_a) * forth.size_x);
+    const bool open_b = child_a < 0 || (child_b >= 0 && extent(node_b, lane_b) * forth.size_y >=
+                                                            extent(node_a, lane_a) * forth.size_x);
     alignas(32) float depth[box_lanes];
     unsigned found;
     if (open_b) {
@@ -188,15 +187,15 @@ bool meet_in_trees(const Tree& a, const Tree& b, const BoxPose& forth, const Box
       int i = n++;  // the deepest comes last, and is taken first
       const auto lane_at = [&](int j) { return (open_b ? stack[j].b : stack[j].a) % box_lanes; };
       for (; i > first && depth[lane_at(i - 1)] > depth[lane]; --i) stack[i] = stack[i - 1];
-      stack[i] = open_b ? Pair{at.a, box_lanes * child_b + lane}
-                        : Pair{box_lanes * child_a + lane, at.b};
+      stack[i] =
+          open_b ? Pair{at.a, box_lanes * child_b + lane} : Pair{box_lanes * child_a + lane, at.b};
     }
   }
   return false;
 }
 
-// Calls `take` with the items whose boxes a ray along x may meet that ends four radii on. margin: of
-// where it runs, besides rounding.
+// Calls `take` with the items whose boxes a ray along x may meet that ends four radii on. margin:
+// of where it runs, besides rounding.
 template <class Take>
 void meet_ray(const Tree& tree, const Vec3<double>& from, double margin, std::int64_t& pairs,
               const Take& take) {

@@ -51,9 +51,7 @@ struct Skin {
 Skin skin(Random& r, bool grid) {
   const double size = grid || whole(r, 0, 1) ? 1 : uniform(r, 0.1, 1);
   const int rings = whole(r, 2, 6), sides = whole(r, 3, 7);
-  const auto thin = [&] {
-    return whole(r, 0, 4) || grid ? 1 : std::pow(10, uniform(r, -6, -1));
-  };
+  const auto thin = [&] { return whole(r, 0, 4) || grid ? 1 : std::pow(10, uniform(r, -6, -1)); };
   const auto some = [&](double rough) {
     Shape s = sphere(rings, sides, rough, 1, thin(), thin(), r);
     if (grid)
@@ -161,8 +159,10 @@ struct Cells {
     const int n = whole(r, 1, 10);
     std::array<int, 3> at{};
     for (int i = 0; i < n; ++i) {
-      if (whole(r, 0, 3)) at[std::size_t(whole(r, 0, 2))] += whole(r, 0, 1) ? 1 : -1;
-      else for (int& c : at) c = whole(r, -1, 1);
+      if (whole(r, 0, 3))
+        at[std::size_t(whole(r, 0, 2))] += whole(r, 0, 1) ? 1 : -1;
+      else
+        for (int& c : at) c = whole(r, -1, 1);
       filled.insert(at);
     }
     if (whole(r, 0, 4) == 0) {  // a cavity
@@ -278,7 +278,8 @@ int main(int argc, char** argv) {
     }
   }
   std::printf(
-      "%ld queries of seed %llu on every instruction set and exchanged, in %.0f s: no fault. %ld of "
+      "%ld queries of seed %llu on every instruction set and exchanged, in %.0f s: no fault. %ld "
+      "of "
       "cells, %ld overlaps, %ld by containment, %ld by exact arithmetic, %ld that touch or as good "
       "as\n",
       tally.done, seed, gone(), tally.cells, tally.hits, tally.inside, tally.exact, tally.near);

@@ -11,8 +11,8 @@ namespace ofg {
 constexpr int box_lanes = 8;
 
 // Oriented boxes relative to a body's centre in units of its radius: all c + sum of x_k a_k with
-// |x_k| <= extent[k]; axis[3 k] to axis[3 k + 2] are a_k. child: of a lane, a node, or ~item; 0 where
-// the lane is empty.
+// |x_k| <= extent[k]; axis[3 k] to axis[3 k + 2] are a_k. child: of a lane, a node, or ~item; 0
+// where the lane is empty.
 struct alignas(32) BoxNode {
   float centre[3][box_lanes], extent[3][box_lanes], axis[9][box_lanes];
   int child[box_lanes];
