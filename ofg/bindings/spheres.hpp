@@ -41,8 +41,7 @@ struct Prepared {
 
   nb::object call() const {
     using ofg::verified::Verdict;
-    const ofg::verified::Posed at(a, b, pose_a, pose_b);
-    const Verdict said = ofg::verified::by_spheres(a, b, at);
+    const Verdict said = ofg::verified::by_spheres(a, b, pose_a, pose_b);
     return said == Verdict::apart ? clear : said == Verdict::meeting ? hit : otherwise();
   }
 };

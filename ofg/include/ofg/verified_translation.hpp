@@ -181,7 +181,7 @@ struct Shot {
     double time = std::numeric_limits<double>::quiet_NaN();
     if (at.sure && dot(d, d) > 0) {
       ++counts.spheres;
-      if (by_spheres(a, b, at) == Verdict::meeting && start()) return;
+      if (by_spheres(a, b, pose_a, pose_b) == Verdict::meeting && start()) return;
       if (passes(-at.between, v[0])) return;
       const Verdict said = aim(v);
       if (said == Verdict::apart) return;
