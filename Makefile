@@ -138,9 +138,10 @@ QUERIES ?= 1000000
 SECONDS ?= 600
 fuzz: build
 	$(BIN)/cmake -S tests/ofg/native -B build/fuzz -DCMAKE_BUILD_TYPE=Release
-	$(BIN)/cmake --build build/fuzz --target fuzz fuzz_verified
+	$(BIN)/cmake --build build/fuzz --target fuzz fuzz_verified fuzz_solid
 	build/fuzz/fuzz $(QUERIES) $(SECONDS)
-	ASAN_OPTIONS=malloc_context_size=0 build/fuzz/fuzz_verified $(QUERIES) $(SECONDS)
+	for name in fuzz_verified fuzz_solid; do \
+		ASAN_OPTIONS=malloc_context_size=0 build/fuzz/$$name $(QUERIES) $(SECONDS) || exit 1; done
 
 SEED ?= 1
 FROM ?= 0

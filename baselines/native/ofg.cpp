@@ -46,14 +46,16 @@ struct Ofg final : lane::Engine {
     turn();
     bodies.resize(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const auto& [v, f, radius, convex] = all[i];
-      bodies[i].whole = ofg::Mesh<T>(v.data(), all[i].n(), f.data(), all[i].m(), convex);
+      const lane::Body& body = all[i];
+      bodies[i].whole =
+          ofg::Mesh<T>(body.vertices.data(), body.n(), body.faces.data(), body.m(), body.convex);
       bodies[i].close();
     }
     cases = asked;
     answered.resize(cases.size());
     for (const auto& c : cases) {
       workspace.reserve(bodies[c.a], bodies[c.b]);
+      if (options.screens()) bodies[c.a].make_tables(), bodies[c.b].make_tables();
       poses_a.push_back(pose(c.pose_a)), poses_b.push_back(pose(c.pose_b));
     }
   }

@@ -9,6 +9,7 @@
 #include "screen.hpp"
 #include "verified_exact.hpp"
 #include "verified_fine.hpp"
+#include "verified_spheres.hpp"
 
 namespace ofg::verified {
 
@@ -130,6 +131,12 @@ inline void closed_in(const Hull& a, const Hull& b, const Pose& pa, const Pose& 
   }
 }
 
+// Whether spheres settle it, and then the answer.
+inline bool settled(Verdict said, Answer& answer) {
+  if (said == Verdict::meeting) answer.hit = true, answer.found = Found::inside;
+  return said != Verdict::unsure;
+}
+
 inline void name(const Hull& a, const Hull& b, const Posed& at, const Proof& proof,
                  Answer& answer) {
   answer.hit = proof.verdict == Verdict::meeting;
@@ -152,18 +159,13 @@ inline Answer overlap(const Hull& a, const Hull& b, const Pose& pa, const Pose& 
                       Cache* cache = nullptr, const Parts& parts = {}) {
   Answer answer;
   answer.counts.steps = 1;
-  const Posed at(a, b, pa, pb);
+  const Frames frames(a, b, pa, pb);
+  answer.counts.spheres = parts.spheres;
+  if (parts.spheres && detail::settled(by_spheres(a, b, frames), answer)) return answer;
+  const Centres centres(a, b, pa, pb, frames);
+  if (parts.spheres && detail::settled(by_spheres(a, b, centres), answer)) return answer;
+  const Posed at(a, b, centres);
   Proof proof;
-  if (at.sure && parts.spheres) {
-    ++answer.counts.spheres;
-    // A length is off by 4 units of rounding of itself, which slack covers: it counts 256.
-    const double apart = length(at.between);
-    if (apart > (a.radius + b.radius) * at.unit + at.slack) return answer;
-    if (apart + at.slack < (a.inner + b.inner) * at.unit) {
-      answer.hit = true, answer.found = Found::inside;
-      return answer;
-    }
-  }
   if (at.sure && cache && detail::recalled(a, b, at, *cache, answer.counts, proof)) {
     detail::name(a, b, at, proof, answer);
     return answer;

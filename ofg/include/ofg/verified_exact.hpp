@@ -99,9 +99,11 @@ inline bool apart_along(const Portal& portal, Placed& a, Placed& b, const Mat3<d
 // normal; the ray leaves later each time, so that no triangle comes twice and the search ends.
 // axis: the normal of the last portal in B's axes, from M's inside out. ended: where a search with
 // rounding did, the normal outward; where bodies touch its plane mostly has all of M on one side
-// and the origin in it, and there is nothing to search.
+// and the origin in it, and there is nothing to search. sweep: A's displacement relative to B, over
+// which a translation is asked about as a whole, without `ended`: the hull of A at its start and at
+// its end is what A's interior passes through.
 inline bool meets_exactly(const Hull& a, const Hull& b, const Pose& pa, const Pose& pb,
-                          const Portal& ended, Vec3<double>& axis) {
+                          const Portal& ended, Vec3<double>& axis, const Vector& sweep = Vector()) {
   double qa[4], qb[4];
   detail::in_range(pa.q, qa), detail::in_range(pb.q, qb);
   const Number na = detail::square(qa), nb = detail::square(qb);
@@ -111,6 +113,7 @@ inline bool meets_exactly(const Hull& a, const Hull& b, const Pose& pa, const Po
   if (detail::apart_along(ended, place_a, place_b, ra, rb, axis)) return false;
   // Four times everything, so that the centres of the tetrahedra need no division.
   const Number four(4.0);
+  const Vector swept = sweep * (na * nb * four);
   const Vector inside_b = place_b.inside(), start = place_a.inside() - inside_b, d = -start;
   if (start.zero()) return true;
   // The first portal: a face of A's tetrahedron, moved by the centre of B's. All are kept relative
@@ -134,10 +137,11 @@ inline bool meets_exactly(const Hull& a, const Hull& b, const Pose& pa, const Po
     // The origin is before the plane that the ray leaves by, so between two points of M of which
     // one is interior.
     if ((dot(n, v[0]) - dot(n, d)).sign() > 0) return true;
-    const Vector s = (place_a[place_a.farthest(n, ra.transposed() * near)] -
-                      place_b[place_b.farthest(-n, -axis)]) *
-                         four -
-                     start;
+    Vector s = (place_a[place_a.farthest(n, ra.transposed() * near)] -
+                place_b[place_b.farthest(-n, -axis)]) *
+                   four -
+               start;
+    if (dot(n, swept).sign() > 0) s = s + swept;
     if ((dot(n, s) - dot(n, d)).sign() <= 0) return false;
     // Beyond the plane, so beyond the portal: the ray leaves through one of three triangles at s.
     const int t[3] = {detail::side(s, v[0], d), detail::side(s, v[1], d), detail::side(s, v[2], d)};

@@ -214,7 +214,9 @@ class Calls:
     def hull(self):
         meshes = [self.g.mesh() for _ in range(self.g.random.integers(0, 3))]
         faces = [f for _, f in meshes][: -1 if self.g.often(0.02) else None]
-        self._keep(self.hulls, self.core.Hulls([v for v, _ in meshes], faces))
+        self._keep(
+            self.hulls, self.core.VerifiedSolid([v for v, _ in meshes], faces, self.g.often(0.3))
+        )
 
     def verified_many(self):
         n = int(self.g.random.integers(0, 4))

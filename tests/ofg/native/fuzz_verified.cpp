@@ -28,15 +28,17 @@ using ofg::verified::Hull;
 
 constexpr int of_a_pair = 24;  // queries about one pair of bodies
 
-// The faces of bodies that are convex up to rounding. Within 1e-9 of touching they say nothing:
-// then growing or shrinking A changes what brute force says.
+// The faces of bodies that are convex up to rounding. Within a billionth of both bodies' size of
+// touching they say nothing: then growing or shrinking A changes what brute force says.
 struct Faces {
   ofg::Body<double> a[2], b;
 
-  Faces(const Shape& s, const Shape& t) : b(body<double>(t, true)) {
+  // ratio: of B's size to A's
+  Faces(const Shape& s, const Shape& t, double ratio) : b(body<double>(t, true)) {
+    const double some = 1e-9 * (1 + ratio);
     for (int i = 0; i < 2; ++i) {
       Shape u = s;
-      for (auto& x : u.v) x *= i == 0 ? 1 + 1e-9 : 1 - 1e-9;
+      for (auto& x : u.v) x *= i == 0 ? 1 + some : 1 - some;
       a[i] = body<double>(u, true);
     }
   }
@@ -198,7 +200,7 @@ struct Block {
   Says slowly(const Query& query) {
     if (!kinds[kinds::large])
       return judge::by_all_planes(question(query.p, query.q), on_the_grid(query));
-    if (!faces) faces.emplace(s, t);
+    if (!faces) faces.emplace(s, t, b.radius / a.radius);
     return (*faces)(query.p, query.q);
   }
 
