@@ -11,10 +11,12 @@
 
 namespace ofg::verified::detail {
 
-// Posed, with the same bounds in units of 2^-102 in place of 2^-53: the vertices relative to the
-// centres and the difference of the positions are exact here, N(q) is off by no more, and the
-// matrix by 42 units from two of them, 9 from their product, 11 from the squares, the quotient and
-// the product with that.
+// Posed, with the same bounds in units of 2^-102 in place of 2^-53. Vertices relative to the
+// centres and the difference d of the positions are exact here. N(q) is off by 21 units; the matrix
+// by 42 from two of them, 9 from their product, and 11 from the squares, the quotients and the
+// products with those: 62. between = r c_A + shift - c_B: 68 units |c_A|, 50 |d|, and 2 of all for
+// the sums. A point of M: 68 units r_A, and 2 of all again. Less than 84 of all the lengths, as
+// there.
 struct FinePose {
   Mat3<Twice> r;      // from A's axes to B's, times `unit`
   Vec3Twice between;  // from B's centre to A's, times `unit`
