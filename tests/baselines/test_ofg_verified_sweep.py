@@ -9,6 +9,7 @@ and motion of convex bodies and unions, and the labels of the published runs.
 import json
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -16,6 +17,7 @@ import ofg
 from baselines import registry
 from experiments.cases.families import get, own_modules, scenarios
 from experiments.truth import label, label_many
+from ofg import Body, Motion, Pose, Query
 
 ROOT = Path(__file__).parents[2]
 SOLID = {"convex", "union"}
@@ -101,3 +103,42 @@ def test_the_labels_of_the_reference_of_ci_are_answered():
             asked += 1
             assert truth.label == row.label and not fault(query, truth), row.case
     assert asked > 20
+
+
+def turning(rng):
+    """A query as no family draws it: long and flat bodies, up to three turns, rolling, screws,
+    bodies of other sizes, contact near the start, both moving, far from the origin.
+    """
+    ratio = 10.0 ** rng.uniform(-4, 0) if rng.random() < 0.3 else 1.0
+    thin = np.where(rng.random((2, 3)) < 0.3, 0.02, 1.0)
+    a, b = (Body.convex(rng.normal(size=(rng.integers(4, 40), 3)) * t) for t in thin)
+    a = Body.convex(a.vertices * ratio)
+    size = a.radius if rng.random() < 0.5 else b.radius
+    away = rng.normal(size=3)
+    away *= (a.radius + b.radius) * rng.uniform(0.3, 1.2) / np.linalg.norm(away)
+    far = rng.choice([0.0, 1e3, 1e5])
+
+    def motion(share):
+        axis, angle = rng.normal(size=3), rng.choice([0, 0.1, 1.5, 6, 2 * np.pi, 20])
+        way = -away * share + rng.normal(size=3) * size * rng.uniform(0, 1)
+        kind = rng.integers(5)
+        if kind == 0:
+            way = np.cross(axis, rng.normal(size=3)) * angle / np.linalg.norm(axis) * size
+        elif kind == 1:
+            way = axis * size
+        about = rng.normal(size=3) * size * rng.integers(2)
+        return Motion(way, axis, float(angle), about)
+
+    start = [Pose(rng.normal(size=4), x + far) for x in (away, 0 * away)]
+    return Query("motion", a, b, *start, motion(1), motion(-0.3 * rng.integers(2)))
+
+
+def test_the_prover_agrees_about_motions_that_no_family_draws():
+    rng = np.random.default_rng(17)
+    queries = [turning(rng) for _ in range(400)]
+    truths = label_many(queries)
+    assert {t.label for t in truths} >= {"hit", "clear"}
+    assert sum(t.label == "uncertain" for t in truths) < 40
+    for query, truth in zip(queries, truths):
+        assert not fault(query, truth)
+        assert not fault(query.swapped(), truth)

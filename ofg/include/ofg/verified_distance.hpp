@@ -5,6 +5,7 @@
 // An axis along which two hulls are apart at one time (Gilbert, Johnson and Keerthi 1988), and the
 // features that are nearest.
 #pragma once
+#include "answer.hpp"
 #include "verified_motion.hpp"
 
 namespace ofg::verified {
@@ -117,6 +118,8 @@ inline Apart apart_at(const Moving& m, const Instant& now, Vec3<double> axis, do
     v = simplex.nearest();
     if (simplex.n == 4) simplex.n = 0, v = axis;
   }
+  if (simplex.n == 0 && !(length(v) > 1e-100)) v = now.between;
+  if (simplex.n == 0 && !(length(v) > 1e-100)) v = {1, 0, 0};
   for (int step = 0; step < most_axes; ++step) {
     const double size = length(v);
     if (!(size > 1e-100)) return best;
