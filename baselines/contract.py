@@ -92,6 +92,9 @@ class Method(ABC):
     time_error: float = (
         nan  #: documented bound on |time - true time|, as a share of the step; may be a property
     )
+    #: class of the method whose cheapest call gives the floor of this one, if its own cheapest call
+    #: never reaches the engine; None: itself
+    floored: ClassVar[type[Method] | None] = None
     #: False: the engine may answer the same query differently another time, so no answer of it
     #: proves a change
     repeatable: ClassVar[bool] = True
@@ -119,6 +122,11 @@ class Method(ABC):
             if wrong := fault(value, self.parameters[name], self.allowed.get(name), unlimited):
                 raise ValueError(f"Method '{self.name}': {name} = {value} {wrong}.")
         self.parameters = {**self.parameters, **parameters}
+
+    def floor(self) -> Method:
+        """The method whose call on the easiest query is the floor of this one's times."""
+        cls = self.floored or type(self)
+        return cls(**{**self.parameters, **self.cheapest})
 
     @property
     def label(self) -> str:

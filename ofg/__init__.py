@@ -21,11 +21,13 @@ from .algorithm import (
 from .answer import COUNTS, FOUND, Answer, Answers
 from .body import Body, BodyError, BodyWarning
 from .decomposition import decompose
+from .impact import Impact, Impacts
 from .motion import Motion
 from .options import REPAIRS, repair_options
 from .pose import Pose
 from .query import QUESTIONS, Query
 from .verification import PairCache, verified, verified_many
+from .verified_motion import verified_sweep, verified_sweep_many
 
 __all__ = [
     "Answer",
@@ -35,6 +37,8 @@ __all__ = [
     "BodyWarning",
     "COUNTS",
     "FOUND",
+    "Impact",
+    "Impacts",
     "Motion",
     "PairCache",
     "Pose",
@@ -55,4 +59,6 @@ __all__ = [
     "translational_sweep",
     "verified",
     "verified_many",
+    "verified_sweep",
+    "verified_sweep_many",
 ]

@@ -146,6 +146,19 @@ class PreparedVerified:
 
 def verified_many(a: VerifiedSolid, b: VerifiedSolid, poses_a: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], poses_b: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], cache: Cache | None, selection: bool, threads: int) -> tuple: ...
 
+class PreparedVerifiedSweep:
+    def __init__(self, a: object, b: object, poses: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], motions: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> None: ...
+
+    def __call__(self) -> tuple:
+        """(hit, time)"""
+
+def verified_sweep_many(a: VerifiedSolid, b: VerifiedSolid, poses_a: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], poses_b: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], motions_a: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], motions_b: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], threads: int) -> tuple: ...
+
+class PreparedSpheres:
+    def __init__(self, a: object, b: object, poses: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], clear: object, hit: object, otherwise: object) -> None: ...
+
+    def __call__(self) -> object: ...
+
 class Prepared:
     def __init__(self, a: object, b: object, poses: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], motions: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], options: Options, algorithm: int, moving: bool, single: bool) -> None: ...
 

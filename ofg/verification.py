@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 from collections import OrderedDict
+from collections.abc import Callable
 
 import numpy as np
 
@@ -121,6 +122,21 @@ def prepare_verified(query: Query, *, selection: bool = True) -> _core.PreparedV
     poses = np.array([row(query.pose_a), row(query.pose_b)])
     checks.truth("selection", selection)
     return _core.PreparedVerified(solid_of(query.a, "a"), solid_of(query.b, "b"), poses, selection)
+
+
+def prepare_spheres(
+    query: Query, clear: object, hit: object, otherwise: Callable[[], object]
+) -> _core.PreparedSpheres:
+    """A callable that asks the bounding and inscribed spheres of an overlap query first, which is
+    the first step of `verified`: `clear` or `hit` where they prove it, else what `otherwise()`
+    returns.
+
+    Both bodies are convex. What spheres are worth to any other method is the difference.
+    """
+    checks.query(query)
+    poses = np.array([row(query.pose_a), row(query.pose_b)])
+    solids = solid_of(query.a, "a"), solid_of(query.b, "b")
+    return _core.PreparedSpheres(*solids, poses, clear, hit, otherwise)
 
 
 def solid_of(body: Body, name: str = "body") -> _core.VerifiedSolid:

@@ -96,6 +96,9 @@ struct Engine {
   virtual void ask_many(std::size_t, std::size_t, Verdict*) {}  // n cases from the first on
   virtual void turn() {}                                        // before its turn in each round
   virtual void forget() {}  // what it remembers, before each trajectory
+  // The method whose unit of units.csv it gets.
+  virtual std::string asked_as() const { return name.substr(0, name.find(' ')); }
+  virtual long long bytes() const { return -1; }  // of all its bodies, once built; -1: unknown
 
   const std::string name;  // of the method of the Python lane that asks the same, if there is one
   std::string isa = LANE_ISA, build_of = LANE_BUILD;

@@ -55,6 +55,7 @@ struct Ofg final : lane::Engine {
     answered.resize(cases.size());
     for (const auto& c : cases) {
       workspace.reserve(bodies[c.a], bodies[c.b]);
+      if (options.screens()) bodies[c.a].make_tables(), bodies[c.b].make_tables();
       poses_a.push_back(pose(c.pose_a)), poses_b.push_back(pose(c.pose_b));
     }
   }

@@ -29,7 +29,8 @@ class Taken:
     """What one start of `lane` gave. A contestant is an engine's build in a mode.
 
     contestants: index id; engine (named as the method of the Python lane that asks the same, where
-    there is one), isa, build (who built it), mode, build_ns (of all bodies and cases).
+    there is one), isa, build (who built it), mode, build_ns (of all bodies and cases), built (how
+    many bodies), bytes (of all of them with their tables; -1 where unknown).
     answers: id, case (index of the query), hit, time.
     times: id, block (its first case), queries in it, round0, round1, ...: nanoseconds, gross; NaN
     but for three rounds where a contestant takes more than half a second for its turn.

@@ -14,10 +14,10 @@ out slower than k = 8 behind it). Turns do not alternate call by call, because e
 find the instruction cache full of another engine. The floor of a method is its own cheapest call
 (of n substeps: one) on two tetrahedra far apart, timed between its cases: the cost of the binding
 and of an early exit. A net time of n substeps therefore still contains the binding's cost of n - 1
-calls. A method that takes longer than `seconds` for its rounds of a bin takes part in fewer of
-them, spread evenly, but in at least 3; one that takes longer for a single round is warmed up once.
-Only cases that a method answered (status ok) are timed; building (`prepare`) is timed once per
-case.
+calls. An engine behind spheres has that engine's floor, as the spheres settle the query. A method
+that takes longer than `seconds` for its rounds of a bin takes part in fewer of them, spread evenly,
+but in at least 3; one that takes longer for a single round is warmed up once. Only cases that a
+method answered (status ok) are timed; building (`prepare`) is timed once per case.
 """
 
 from __future__ import annotations
@@ -32,31 +32,26 @@ from time import perf_counter_ns
 
 import numpy as np
 import pandas as pd
+import psutil
 
 from baselines import registry
-from experiments.cases.case import Case
 from ofg import Body, Motion, Pose, Query
 
 from . import ownfile, words
 from .answering import PACES
+from .bins import Bin, choose
 from .config import RunConfig, TimingChoice, load_files
 from .folder import manifest, origin
-from .folder.rows import cases_of
 from .folder.shard import Shard
 from .folder.store import Store
-from .processes.pool import Task, mark, run
+from .processes.pool import MEMORY, Task, mark, run
 from .progress import stage
 
-SITUATIONS = ("deep", "near", "apart", "hit", "clear")  # see situation_of
-# least number of faces, name
-SIZES = (
-    (0, "to 24"),
-    (25, "25-150"),
-    (151, "151-700"),
-    (701, "over 700"),
-)
-NEAR = 1e-2  # of gap over size: cases closer to contact are timed separately
 LEAST_ROUNDS = 3
+#: share of the machine's memory that the process that times may take. It keeps every prepared case
+#: of a bin, and a MuJoCo model alone reserves 28 MB: 48 cases of six methods are 8 GB, of which
+#: little is ever touched.
+SHARE = 0.5
 START = 1.2  # seconds: a process that imports every engine (0.8 in `quick`, 2.3 in `standard`)
 COLUMNS = ["question", "faces", "situation", "method", "case", "build_ns", "rounds_ns"]
 Times = tuple[str, str, str, str, str, int, list[int]]  #: a row of COLUMNS
@@ -64,19 +59,6 @@ PROBE = "(noise probe)"
 FLOOR = "(floor)"
 # if the process died: a row of its current method, with the reason in place of the case
 LOST = "(lost)"
-
-
-@dataclass(frozen=True)
-class Bin:
-    """Cases of one question, one range of faces (of the larger body), one situation. methods:
-    label -> ids of the cases it answered.
-    """
-
-    question: str
-    faces: str
-    situation: str
-    cases: list[Case]
-    methods: dict[str, set[str]]
 
 
 def measure(store: Store, config: RunConfig) -> None:
@@ -121,34 +103,6 @@ def _shard(store: Store, config: RunConfig, bin_: Bin) -> Shard:
         timing=config.timing.model_dump(),
         bin=[bin_.question, bin_.faces, bin_.situation, [case.id for case in bin_.cases], methods],
     )
-
-
-def choose(store: Store, config: RunConfig) -> list[Bin]:
-    """The first cases of each bin, spread evenly over its scenarios and levels; the same for
-    every method.
-    """
-    cases, observations = store.read("cases.parquet"), store.read("observations.parquet")
-    objects = {case.id: case for case, _ in cases_of(cases, store.read("bodies.parquet"))}
-    answered = observations[observations.status == "ok"].groupby("case").method.agg(set)
-    labels = [m.label for spec in config.asked for m in registry.make(spec)]
-    cases = cases[cases.label != "uncertain"].assign(
-        faces=lambda c: size_of(c.faces), situation=situation_of
-    )
-    bins = []
-    for (question, faces, situation), rows in cases.groupby(
-        ["question", "faces", "situation"], sort=False, observed=True
-    ):
-        chosen = [
-            objects[i]
-            for i in rows.sort_values(["index", "scenario", "level"]).case[: config.timing.cases]
-        ]
-        methods = {
-            label: {c.id for c in chosen if label in answered.get(c.id, ())} for label in labels
-        }
-        bins.append(
-            Bin(question, faces, situation, chosen, {k: v for k, v in methods.items() if v})
-        )
-    return bins
 
 
 def expected(store: Store, bins: list[Bin], timing: TimingChoice) -> list[float]:
@@ -204,23 +158,6 @@ def rounds_within(once: float, timing: TimingChoice, warmup: int = 0) -> int:
     )
 
 
-def size_of(faces: pd.Series) -> pd.Series:
-    """The range of faces to which each number belongs."""
-    return pd.cut(
-        faces,
-        [least for least, _ in SIZES] + [np.inf],
-        right=False,
-        labels=[title for _, title in SIZES],
-    ).astype(str)
-
-
-def situation_of(cases: pd.DataFrame) -> pd.Series:
-    """Overlap: "deep", "near" or "apart", by the signed gap over the size. Sweeps: their label."""
-    relative = cases.gap / cases["size"]
-    overlap = np.select([relative < -NEAR, relative > NEAR], ["deep", "apart"], "near")
-    return pd.Series(np.where(cases.question == "overlap", overlap, cases.label), cases.index)
-
-
 def measure_bin(store: Store, config: RunConfig, bin_: Bin, seconds: float) -> list[Times]:
     """Rows of COLUMNS for one bin. If a method fails, or the process dies or hangs, the bin is
     timed again without the current method.
@@ -236,7 +173,14 @@ def measure_bin(store: Store, config: RunConfig, bin_: Bin, seconds: float) -> l
             lambda item, loss: Lost(loss.mark, f"{loss.status}, {loss.detail}"),
         )
         # one worker: no other process of ours runs while times are measured
-        run([task], 1, seconds, store.path("workers.log"), prepare=partial(load_files, config))
+        run(
+            [task],
+            1,
+            seconds,
+            store.path("workers.log"),
+            prepare=partial(load_files, config),
+            memory=max(MEMORY, int(SHARE * psutil.virtual_memory().total)),
+        )
         if not isinstance(found[0], Lost):
             return found[0] + lost
         label, why = found[0].label, found[0].why
@@ -363,7 +307,7 @@ def _prepare(label: str, bin_: Bin, answered: set[str]) -> list[Call]:
     with the caches in the same state.
     """
     (method,) = registry.make(label)
-    cheapest = type(method)(**{**method.parameters, **method.cheapest})
+    cheapest = method.floor()
     calls: list[Call] = []
     for case in (c for c in bin_.cases if c.id in answered):
         if len(calls) % 5 == 0:

@@ -18,7 +18,9 @@
 #include "ofg/batch.hpp"
 #include "ofg/brute_force.hpp"
 #include "returned.hpp"
+#include "spheres.hpp"
 #include "verified.hpp"
+#include "verified_sweep.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -100,6 +102,14 @@ ofg::Answer ask(Algorithm how, bool moving, const Solid& a, const Solid& b, cons
   return moving ? ofg::sweep(ba, bb, track, o, w) : ofg::overlap(ba, bb, track, o, w);
 }
 
+// What the first query would otherwise do: no query allocates after it.
+template <class T>
+void make_ready(const ofg::Body<T>& a, const ofg::Body<T>& b, const ofg::Options& o,
+                ofg::Workspace<T>& w) {
+  w.reserve(a, b);
+  if (o.screens()) a.make_tables(), b.make_tables();
+}
+
 ofg::Motion motion_of(const double* m) {
   return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, m[6], {m[7], m[8], m[9]}};
 }
@@ -142,9 +152,9 @@ struct Prepared {
       check_float(poses.data(), poses.data() + pose_columns, motions.data(),
                   motions.data() + motion_columns, 1);
     if (single)
-      workspace<float>().reserve(a.coarse, b.coarse);
+      make_ready(a.coarse, b.coarse, options, workspace<float>());
     else
-      workspace<double>().reserve(a.fine, b.fine);
+      make_ready(a.fine, b.fine, options, workspace<double>());
   }
 
   static const Solid& solid_of(nb::handle body) {
@@ -173,7 +183,7 @@ void ask_range(Algorithm how, bool moving, const Solid& a, const Solid& b, const
                const double* pb, const double* ma, const double* mb, const ofg::Options& o,
                std::size_t from, std::size_t to, ofg::Answer* out) {
   ofg::Workspace<T> w;
-  w.reserve(a.as<T>(), b.as<T>());
+  make_ready(a.as<T>(), b.as<T>(), o, w);
   if (how == Algorithm::ofg && !moving) {
     const auto *p = reinterpret_cast<const ofg::Pose*>(pa),
                *q = reinterpret_cast<const ofg::Pose*>(pb);
@@ -238,7 +248,7 @@ nb::ndarray<nb::numpy, double> least_points(const Solid& solid, Doubles axes) {
   for (std::size_t i = 0; i < axes.shape(0); ++i) {
     float v[3], p[3];
     for (int j = 0; j < 3; ++j) v[j] = float(axes.data()[3 * i + std::size_t(j)]);
-    ofg::kernels<double>.extreme(solid.fine.whole.supports.view(), v, p);
+    ofg::kernels<double>.extreme(solid.fine.whole.supports().view(), v, p);
     for (int j = 0; j < 3; ++j) points[3 * i + std::size_t(j)] = p[j];
   }
   return out;
@@ -303,6 +313,8 @@ NB_MODULE(_core, m) {
       .def_rw("earliest", &ofg::Options::earliest)
       .def_rw("screen", &ofg::Options::screen);
   verified::add_to(m);
+  verified_sweep::add_to(m);
+  spheres::add_to(m);
   nb::class_<Prepared>(m, "Prepared")
       .def(nb::init<nb::object, nb::object, Doubles, Doubles, const ofg::Options&, int, bool,
                     bool>(),

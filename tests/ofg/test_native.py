@@ -67,3 +67,9 @@ def first_contact() -> float:
 @pytest.mark.skipif(CMAKE is None, reason="cmake is not installed: pip install cmake")
 def test_no_query_allocates(tmp_path):
     assert build_and_run(ROOT / "tests/ofg/native", "allocations", tmp_path).strip() == "0"
+
+
+@pytest.mark.skipif(CMAKE is None, reason="cmake is not installed: pip install cmake")
+def test_twice_the_digits_are_off_by_less_than_is_said(tmp_path):
+    said = build_and_run(ROOT / "tests/ofg/native", "twice", tmp_path)
+    assert said.startswith("sum 0.") and said.endswith("of the bound\n")

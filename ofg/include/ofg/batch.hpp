@@ -41,7 +41,7 @@ void screen(const Mesh<T>& a, const Mesh<T>& b, const Pose* pa, const Pose* pb, 
                             4 * rounding<T>,
                             double(a.extent) + double(b.extent)};
   PosedPairs pairs;
-  const SupportView map_a = a.supports.view(), map_b = b.supports.view();
+  const SupportView map_a = a.supports().view(), map_b = b.supports().view();
   unsigned char verdict[most_posed];
   int rest[most_posed], left = 0;
   kernels<T>.pose_pairs(bodies, reinterpret_cast<const double*>(pa),

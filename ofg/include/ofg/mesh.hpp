@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "on_demand.hpp"
 #include "separation.hpp"
 #include "support_map.hpp"
 
@@ -130,7 +131,6 @@ struct Mesh {
   Blocks<T> blocks;                            // the same centres, for the selection
   std::vector<T> corners;                      // of each face: nine coordinates in a row
   Cloud<T> cloud;                              // the vertices, for support functions
-  SupportMap supports;                         // the same, by table
   std::vector<T> face_radius;       // from a face's centre to its farthest vertex, rounded up
   std::vector<Vec3<T>> own_points;  // one point of the solid in each of its parts
   Vec3<T> centre;                   // mean of the vertices
@@ -187,17 +187,26 @@ struct Mesh {
     blocks = Blocks<T>(centres);
     for (std::size_t i = 0; i < n; ++i) cloud.push(vertices[i]);
     cloud.pad();
-    supports =
-        SupportMap(vertices.x.data(), vertices.y.data(), vertices.z.data(), int(n), centre, radius);
     if (convex) own_points.push_back(centre);
     if (!convex)
       for (int i : first_of_parts(faces, n)) own_points.push_back(vertices[std::size_t(i)]);
+  }
+
+  // The vertices by table, relative to `centre` in units of `radius`.
+  const SupportMap& supports() const {
+    return support_map.get([this] {
+      return SupportMap(vertices.x.data(), vertices.y.data(), vertices.z.data(), vertices.size(),
+                        centre, radius);
+    });
   }
 
   int size() const { return int(faces.size()); }
   Triangle<T> triangle(int f) const {
     return {vertices[faces[f][0]], vertices[faces[f][1]], vertices[faces[f][2]]};
   }
+
+ private:
+  OnDemand<SupportMap> support_map;
 };
 
 // A body: its convex pieces (one if it is convex, none if it is an undivided concave mesh) and the
@@ -220,6 +229,12 @@ struct Body {
     for (int i = 0; i < whole.vertices.size(); ++i)
       radius = std::fmax(radius, length(whole.vertices[i] - centre));
     radius += rounding<T> * whole.extent;
+  }
+
+  // Makes what a query with a screen would otherwise make first. See Options::screens.
+  void make_tables() const {
+    whole.supports();
+    for (const auto& piece : pieces) piece.supports();
   }
 };
 

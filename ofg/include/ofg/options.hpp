@@ -40,6 +40,9 @@ struct Options {
   bool end_moment = false;   // a hit found only at the end of a sweep gets its time by bisection
   int piece_times = 1;       // at which a sweep selects the two pieces; as selection_times
   bool earliest = false;     // the earliest of all hits instead of the first found
+
+  // Whether a query may ask the tables of supports: a screen does, which adaptive k always has.
+  bool screens() const { return screen || adaptive_k; }
 };
 
 }  // namespace ofg

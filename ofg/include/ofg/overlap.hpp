@@ -169,7 +169,7 @@ Answer overlap(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Opt
   const double slack = rounding<T> * (length(pose.p) + a.extent + b.extent);
   if (detail::spheres_apart(apart, double(a.radius) + double(b.radius) + slack))
     return answer;  // 1
-  const bool screens = (o.screen || o.adaptive_k) && screened == Screened::unknown;
+  const bool screens = o.screens() && screened == Screened::unknown;
   if (screens && detail::screened_apart(a, b, pose, {}, 4 * slack)) return answer;
   const detail::Near<T> near{Transform<T>(pose), Transform<T>(pose.inverse()), slack, screened};
   detail::oppose_once<Last>(a, b, near, o, w, answer);

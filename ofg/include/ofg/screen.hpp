@@ -46,7 +46,7 @@ bool screened_apart(const Mesh<T>& a, const Mesh<T>& b, const Transform<double>&
   const Vec3<float> end(far);
   const float size_b = float(double(b.radius) * unit);
   const Mat3<float> back = pose.r.transposed();
-  const SupportView map_a = a.supports.view(), map_b = b.supports.view();
+  const SupportView map_a = a.supports().view(), map_b = b.supports().view();
   const auto extreme = [](const SupportView& map, const Vec3<float>& axis) {
     const float v[3] = {axis.x, axis.y, axis.z};
     float p[3];

@@ -283,7 +283,7 @@ Answer sweep(const Mesh<T>& a, const Mesh<T>& b, const Track& track, const Optio
           : detail::swept_spheres_apart(a, b, track, 0, 1, slack(window.start) + slack(window.end));
   if (rejected) return answer;
   const double room = 4 * (slack(window.start) + slack(window.end));
-  const bool screens = (o.screen || o.adaptive_k) && !track.turns();
+  const bool screens = o.screens() && !track.turns();
   if (screens && detail::screened_apart(a, b, window.start, window.end.p - window.start.p, room))
     return answer;
   if (detail::overlaps_at(a, b, window.start, Found::start, slack(window.start), o, w, answer)) {

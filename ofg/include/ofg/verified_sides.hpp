@@ -103,8 +103,7 @@ class Sides {
 
   // What is exact is in the world, relative to B's position, times 4 |q_A|^2 |q_B|^2.
   struct Frames {
-    Number q[2][4], factor[2];
-    Vector way;
+    Vector turn[2][3], way;
   };
 
   double size(const Vec3<double>& v) const {
@@ -116,8 +115,9 @@ class Sides {
     double qa[4], qb[4];
     detail::in_range(pa.q, qa), detail::in_range(pb.q, qb);
     const Number na = detail::square(qa), nb = detail::square(qb);
-    for (std::size_t i = 0; i < 4; ++i) to.q[0][i] = Number(qa[i]), to.q[1][i] = Number(qb[i]);
-    to.factor[0] = nb, to.factor[1] = na;
+    turning(qa, to.turn[0]), turning(qb, to.turn[1]);
+    for (std::size_t i = 0; i < 3; ++i)
+      to.turn[0][i] = to.turn[0][i] * nb, to.turn[1][i] = to.turn[1][i] * na;
     to.way = (Vector(pa.p) - Vector(pb.p)) * (na * nb * Number(4.0));
     return to;
   }
@@ -125,8 +125,9 @@ class Sides {
   Vector place(const Point& point) const {
     Vector sum;
     for (int i = 0; i < point.n; ++i) sum = sum + Vector(point.given[i]);
-    const int k = point.in_b ? 1 : 0;
-    const Vector v = turned(sum * Number(4.0 / point.n), frames_->q[k]) * frames_->factor[k];
+    sum = sum * Number(4.0 / point.n);
+    const auto& turn = frames_->turn[point.in_b ? 1 : 0];
+    const Vector v(dot(turn[0], sum), dot(turn[1], sum), dot(turn[2], sum));
     return point.in_b ? v : v + frames_->way;
   }
 

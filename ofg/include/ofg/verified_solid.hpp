@@ -136,7 +136,7 @@ inline bool holds_part_of(const Hull& hull, const Hull& triangle, const Pose& ph
       Search{hull, triangle, at, counts, proof}.run(i);
   if (proof.verdict != Verdict::unsure) return proof.verdict == Verdict::meeting;
   Vec3<double> axis;
-  return meets_exactly(hull, triangle, ph, pt, axis);
+  return meets_exactly(hull, triangle, ph, pt, Portal(), axis);
 }
 
 // A closed surface and a union: a face has a point inside a piece, or a piece is inside as a whole.

@@ -26,6 +26,7 @@ long count() {
                      b = body<T>(sphere(6, 9, 0.2, 2, 1, 0.3, random), false);
   ofg::Workspace<T> w;
   w.reserve(a, b);
+  a.make_tables(), b.make_tables();
   ofg::Options repaired;
   repaired.nearest = ofg::Nearest::triangle, repaired.selection_times = 3,
   repaired.arc_tolerance = 1e-3;
