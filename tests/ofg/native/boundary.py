@@ -213,10 +213,17 @@ class Calls:
 
     def hull(self):
         meshes = [self.g.mesh() for _ in range(self.g.random.integers(0, 3))]
+        closed = self.g.often(0.1)
+        if closed:
+            meshes = [self.surface()] if self.g.often(0.9) else meshes
         faces = [f for _, f in meshes][: -1 if self.g.often(0.02) else None]
-        self._keep(
-            self.hulls, self.core.VerifiedSolid([v for v, _ in meshes], faces, self.g.often(0.3))
-        )
+        self._keep(self.hulls, self.core.VerifiedSolid([v for v, _ in meshes], faces, closed))
+
+    def surface(self) -> tuple:
+        """Each face with its reverse, so that no edge is left over."""
+        v, f = self.g.mesh()
+        whole = isinstance(f, np.ndarray) and f.ndim == 2 and f.dtype == np.int32
+        return v, np.vstack([f, f[:, ::-1]]) if whole else f
 
     def verified_many(self):
         n = int(self.g.random.integers(0, 4))
