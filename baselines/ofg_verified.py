@@ -56,6 +56,7 @@ class Verified(VerifiedOverlap):
 
     name = "ofg-verified"
     questions = frozenset(QUESTIONS)
+    swept = frozenset({"convex", "union"})
     movers, about = 2, True
     gives_time = True
     #: but where the approach takes 1e5 steps for the bodies' size, and for contacts not told from

@@ -49,7 +49,7 @@ def test_the_page_puts_verified_ofg_over_the_fastest_library():
     taken = pd.DataFrame(who)
     taken["ns"] = np.repeat([ns for _, _, ns in engines], 4)
     answers = taken.assign(case=taken.block, hit=taken.engine == "coal-mesh", label="clear")
-    page = concave.page(summary(taken.assign(build_ns=1), answers), ["Made up."])
+    page = concave.page(summary(taken.assign(build_ns=1, built=2, bytes=-1), answers), ["Made up."])
     generic, v3 = page.split("## ")[1:]
     assert "| 100 | 400 fcl-mesh | - | - | 300 coal-mesh [4/4] | - | 0.33" in generic
     assert "| 75 |" in v3 and "0.25" in v3
