@@ -46,7 +46,7 @@ MUTANTS = {
     "one sign of two": [(CROSSING, " && sides_(a, a2, b2, b) < 0;", ";")],
     "faces wound one way": [(CROSSING, "turn_a = above_a[n] < 0", "turn_a = false")],
     "no exact fallback of a face and a piece": [
-        (SOLID, "return meets_exactly(hull, triangle, ph, pt, axis);", "return false;")
+        (SOLID, "return meets_exactly(hull, triangle, ph, pt, Portal(), axis);", "return false;")
     ],
     "no piece inside a surface": [
         (SOLID, "crossing.winding(inside, a.surface, false, answer.counts.evaluated) != 0", "false")

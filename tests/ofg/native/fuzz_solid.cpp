@@ -119,8 +119,7 @@ const char* one_of_surfaces(Random& r, Tally& tally) {
     bool hit = false, back = false;
     if (const char* f = answer(a, b, p, q, tally, hit)) return f;
     if (const char* f = answer(b, a, q, p, tally, back)) return f;
-    const judge::Says says = judge::surfaces({judge::posed(s.v, p, q.p), s.f},
-                                             {judge::posed(t.v, q, q.p), t.f}, 4 * reach);
+    const judge::Says says = judge::surfaces({s.v, t.v, p, q}, s.f, t.f);
     tally.hits += hit, tally.near += says == judge::Says::near;
     if (says == judge::Says::hit && !(hit && back)) return "a miss";
     if (says == judge::Says::clear && (hit || back)) return "a false alarm";

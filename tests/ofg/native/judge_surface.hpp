@@ -14,7 +14,7 @@ namespace judge {
 using Faces = std::vector<std::array<int, 3>>;
 
 struct Skin {
-  Posed points;
+  const Points<Quad>& points;
   const Faces& faces;
 };
 
@@ -25,13 +25,7 @@ inline Quad size_of(Quad x) { return x < 0 ? -x : x; }
 struct Sign {
   Quad doubt = 0;
 
-  Sign(const Skin& a, const Skin& b) {
-    Quad most = 0;
-    for (const Skin* s : {&a, &b})
-      for (const auto& p : s->points)
-        most = std::max({most, size_of(p.x), size_of(p.y), size_of(p.z)});
-    doubt = Quad(1e-26) * most * most * most;
-  }
+  explicit Sign(Quad most) : doubt(Quad(1e-26) * most * most * most) {}
   int operator()(const Point<Quad>& a, const Point<Quad>& b, const Point<Quad>& c,
                  const Point<Quad>& d) const {
     const Quad x = dot(cross(b - a, c - a), d - a);
@@ -87,7 +81,8 @@ inline Says edges(const Skin& a, const Skin& b, const Sign& sign, Quad margin) {
   return says;
 }
 
-// Is a vertex of A inside B? By a ray whose direction meets no edge, if one of a few does.
+// Is a vertex of A inside B? reach: no coordinate is larger. By a ray whose direction meets no
+// edge, if one of a few does.
 inline Says inside(const Point<Quad>& from, const Skin& b, const Sign& sign, Quad reach) {
   static constexpr double ways[4][3] = {
       {1, 0.3141, 0.2718}, {-0.4142, 1, 0.1732}, {0.2236, -0.3317, 1}, {-1, -0.6180, -0.1234}};
@@ -107,10 +102,11 @@ inline Says inside(const Point<Quad>& from, const Skin& b, const Sign& sign, Qua
   return Says::near;
 }
 
-// reach: no two points of the two are farther apart.
-inline Says surfaces(const Skin& a, const Skin& b, Quad reach) {
-  const Sign sign(a, b);
-  const Quad margin = Quad(1e-20) * reach;
+inline Says surfaces(const Question& question, const Faces& faces_a, const Faces& faces_b) {
+  const Posed<Quad> posed(question);
+  const Skin a{posed.a, faces_a}, b{posed.b, faces_b};
+  const Sign sign(posed.lengths);
+  const Quad margin = Quad(1e-20) * posed.lengths;
   const Says one = edges(a, b, sign, margin);
   const Says two = one == Says::hit ? one : edges(b, a, sign, margin);
   if (one == Says::hit || two == Says::hit) return Says::hit;
@@ -118,7 +114,7 @@ inline Says surfaces(const Skin& a, const Skin& b, Quad reach) {
   Says says = Says::clear;
   for (const auto& [s, t] : {std::pair(&a, &b), std::pair(&b, &a)})
     for (const auto& face : s->faces) {
-      const Says in = inside(s->points[std::size_t(face[0])], *t, sign, reach);
+      const Says in = inside(s->points[std::size_t(face[0])], *t, sign, posed.lengths);
       if (in == Says::hit) return in;
       if (in == Says::near) says = in;
     }
