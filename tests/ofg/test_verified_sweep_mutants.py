@@ -44,7 +44,7 @@ MUTANTS = {
         "w * w * far",
     ),
     "the turning plane's bound without the drift": (PLANE, "+ 2 * w * drift)", ")"),
-    "the other body's turn left out": (PLANE, " + v * v * other.swing);", ");"),
+    "the other body's turn left out": (PLANE, " + v * v * across * other.swing);", ");"),
     "no margin": (MOTION, "slack = (256 + 4 * angle)", "slack = (0 * angle)"),
     "the late Newton": (
         MARCH,

@@ -43,8 +43,12 @@ class SupportMap {
 
   SupportView view() const { return {points.data(), first.data(), side}; }
 
+  // Of the points in the lists, list after list.
+  const std::vector<int>& indices() const { return ids; }
+
  private:
   std::vector<float> points;  // lists of x, y, z in turn, list_unit of each
+  std::vector<int> ids;       // list_unit of each list
   std::vector<int> first;     // of each cell, in units of lists; then the end
   int side = 0;
 
@@ -95,6 +99,8 @@ class SupportMap {
 
   void add(const std::vector<Vec3<double>>& all, const std::vector<int>& list) {
     const std::size_t lists = (list.size() + list_unit - 1) / list_unit;
+    for (std::size_t i = 0; i < lists * list_unit; ++i)
+      ids.push_back(list[i < list.size() ? i : 0]);
     for (std::size_t k = 0; k < lists; ++k)
       for (int axis = 0; axis < 3; ++axis)
         for (std::size_t i = k * list_unit; i < (k + 1) * list_unit; ++i) {

@@ -18,12 +18,28 @@ struct Simplex {
 
   void push(const Gap& g) { p[n++] = g; }
 
+  // If it is not there yet, and there is room.
+  void add(const Gap& g) {
+    for (int i = 0; i < n; ++i)
+      if (g.a == p[i].a && g.b == p[i].b) return;
+    if (n < 4) push(g);
+  }
+
   // Leaves only what spans it. The origin for a tetrahedron that holds it.
   Vec3<double> nearest() {
-    if (n == 1) return p[0].w;
-    if (n == 2) return on_segment();
-    if (n == 3) return on_triangle();
-    return on_tetrahedron();
+    unsigned kept = 1;
+    const Vec3<double> v = n == 1   ? p[0].w
+                           : n == 2 ? on_segment(0, 1, kept)
+                           : n == 3 ? on_triangle(0, 1, 2, kept)
+                                    : on_tetrahedron(kept);
+    const int all = n;
+    n = 0;
+    for (int i = 0; i < all; ++i)
+      if (kept >> i & 1) {
+        if (i != n) p[n] = p[i];
+        ++n;
+      }
+    return v;
   }
 
   // Different vertices of one body: 1 to 4.
@@ -39,55 +55,56 @@ struct Simplex {
   }
 
  private:
-  Vec3<double> on_segment() {
-    const Vec3<double> d = p[1].w - p[0].w;
-    const double at = -dot(p[0].w, d), all = dot(d, d);
-    if (!(at > 0)) return n = 1, p[0].w;
-    if (at >= all) return p[0] = p[1], n = 1, p[0].w;
-    return p[0].w + d * (at / all);
+  // Each says in `kept` which corners span the point, as bits.
+  Vec3<double> on_segment(int i, int j, unsigned& kept) const {
+    const Vec3<double>&a = p[i].w, d = p[j].w - a;
+    const double at = -dot(a, d), all = dot(d, d);
+    kept = at > 0 ? at < all ? 1u << i | 1u << j : 1u << j : 1u << i;
+    return at > 0 ? at < all ? a + d * (at / all) : p[j].w : a;
   }
 
-  Vec3<double> on_triangle() {
-    const Vec3<double> a = p[0].w, b = p[1].w, c = p[2].w, ab = b - a, ac = c - a;
+  Vec3<double> on_triangle(int i, int j, int k, unsigned& kept) const {
+    const Vec3<double>&a = p[i].w, &b = p[j].w, &c = p[k].w, ab = b - a, ac = c - a;
     const double d1 = -dot(ab, a), d2 = -dot(ac, a), d3 = -dot(ab, b), d4 = -dot(ac, b),
                  d5 = -dot(ab, c), d6 = -dot(ac, c);
-    if (d1 <= 0 && d2 <= 0) return n = 1, a;
-    if (d3 >= 0 && d4 <= d3) return p[0] = p[1], n = 1, b;
-    if (d6 >= 0 && d5 <= d6) return p[0] = p[2], n = 1, c;
     const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return n = 2, a + ab * (d1 / (d1 - d3));
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return p[1] = p[2], n = 2, a + ac * (d2 / (d2 - d6));
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-      return p[0] = p[2], n = 2, b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    // The foot of the perpendicular: more exact than the weighted corners where it is near.
-    const Vec3<double> m = cross(ab, ac);
-    const double square = dot(m, m);
-    if (square > 1e-24 * dot(ab, ab) * dot(ac, ac)) return m * (dot(m, a) / square);
-    // In line: whichever side comes nearest.
-    Simplex best;
-    Vec3<double> least;
-    for (int i = 0; i < 3; ++i) {
-      Simplex side;
-      side.push(p[i]), side.push(p[(i + 1) % 3]);
-      const Vec3<double> v = side.on_segment();
-      if (i == 0 || dot(v, v) < dot(least, least)) least = v, best = side;
+    if (vc > 0 && vb > 0 && va > 0) {
+      // The foot of the perpendicular: more exact than the weighted corners where it is near.
+      const Vec3<double> m = cross(ab, ac);
+      const double square = dot(m, m);
+      kept = 1u << i | 1u << j | 1u << k;
+      if (square > 1e-24 * dot(ab, ab) * dot(ac, ac)) return m * (dot(m, a) / square);
+    } else {
+      if (d1 <= 0 && d2 <= 0) return kept = 1u << i, a;
+      if (d3 >= 0 && d4 <= d3) return kept = 1u << j, b;
+      if (d6 >= 0 && d5 <= d6) return kept = 1u << k, c;
+      if (vc <= 0 && d1 > 0 && d3 < 0) return on_segment(i, j, kept);
+      if (vb <= 0 && d2 > 0 && d6 < 0) return on_segment(i, k, kept);
+      if (va <= 0 && d4 - d3 > 0 && d5 - d6 > 0) return on_segment(j, k, kept);
     }
-    return *this = best, least;
+    // In line: whichever side comes nearest.
+    const int side[3][2] = {{i, j}, {j, k}, {k, i}};
+    Vec3<double> least;
+    for (const auto& s : side) {
+      unsigned here = 0;
+      const Vec3<double> v = on_segment(s[0], s[1], here);
+      if (&s == side || dot(v, v) < dot(least, least)) least = v, kept = here;
+    }
+    return least;
   }
 
-  Vec3<double> on_tetrahedron() {
+  Vec3<double> on_tetrahedron(unsigned& kept) const {
     static constexpr int side[4][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 3, 2, 0}};
-    const Simplex whole = *this;
     Vec3<double> best;
     double least = std::numeric_limits<double>::infinity();
+    kept = 15;
     for (const auto& s : side) {
-      const Vec3<double> o = whole.p[s[0]].w, m = cross(whole.p[s[1]].w - o, whole.p[s[2]].w - o);
-      const double origin = -dot(m, o), fourth = dot(m, whole.p[s[3]].w - o);
+      const Vec3<double>&o = p[s[0]].w, m = cross(p[s[1]].w - o, p[s[2]].w - o);
+      const double origin = -dot(m, o), fourth = dot(m, p[s[3]].w - o);
       if ((origin > 0 && fourth > 0) || (origin < 0 && fourth < 0)) continue;
-      Simplex f;
-      f.push(whole.p[s[0]]), f.push(whole.p[s[1]]), f.push(whole.p[s[2]]);
-      const Vec3<double> v = f.on_triangle();
-      if (dot(v, v) < least) least = dot(v, v), best = v, *this = f;
+      unsigned here = 0;
+      const Vec3<double> v = on_triangle(s[0], s[1], s[2], here);
+      if (dot(v, v) < least) least = dot(v, v), best = v, kept = here;
     }
     return best;
   }

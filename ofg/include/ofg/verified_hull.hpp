@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "mesh.hpp"
+#include "on_demand.hpp"
+#include "verified_lists.hpp"
 #include "verified_number.hpp"
 #include "verified_table.hpp"
 
@@ -72,7 +74,15 @@ struct Hull {
   }
   int size() const { return int(vertices.size()); }
 
+  // Lists of the vertices of a large hull, for sweeps; none of a small one.
+  const ExtremeLists* extreme_lists() const {
+    if (size() <= 64) return nullptr;
+    return &lists.get([&] { return ExtremeLists(cloud, supports); });
+  }
+
  private:
+  OnDemand<ExtremeLists> lists;
+
   template <class T>
   static std::vector<Vec3<double>> vertices_of(const Mesh<T>& mesh) {
     std::vector<Vec3<double>> all;

@@ -25,7 +25,8 @@ struct March {
   Simplex simplex{};
   Vec3<double> axis{};  // the first to try
 
-  double touch() const { return 2 * m.slack; }
+  // Gaps of planes of every kind are worth something above it.
+  double touch() const { return 3 * m.slack; }
 
   // The times at which the spheres about the pivots meet. False where there are none.
   bool window() {
@@ -50,13 +51,15 @@ struct March {
     const Instant middle = m.at(std::fmin(std::fmax(nearest, from), end));
     const double size = length(middle.between);
     axis = middle.between;
-    if (size + m.slack < (m.a.inner + m.b.inner) * m.unit) {
+    if (size + m.slack + m.away < (m.a.inner + m.b.inner) * m.unit) {
       end = middle.t, hit_at_end = true;
       return false;
     }
     if (!(size > 0)) return false;
     const Plane plane = Plane::fixed(Frame::world, middle.between * (1 / size), middle);
-    const double at_from = height(plane, m.at(from)).along - m.slack;
+    const Gap first = height(plane, m.at(from));
+    simplex.add(first);
+    const double at_from = first.along - m.slack;
     if (!(at_from > 0)) return false;
     const double at_end = height(plane, m.at(end)).along - m.slack, h = end - from;
     const double share = sure_share(at_from, at_end, plane.bound(m, from, end, middle), h);
@@ -121,7 +124,36 @@ struct March {
     return (slope < 0 ? 0.7 : 0.75) * std::sqrt(8 * f / bound);
   }
 
+  // Do the nearest features, carried on to a time at which they have passed each other, and a point
+  // inside hold the origin? Of two edges both halves of the parallelogram that they span are tried.
+  bool passed(const Instant& now) {
+    if (simplex.n < 2) return false;
+    const double margin = m.slack + m.away;
+    const Vec3<double> v0 = now.between + beside(m.a, m.b, 0) * m.unit;
+    const auto between = [&](const Gap& of_a, const Gap& of_b) {
+      return (now.a * of_a.a - now.b * of_b.b) * m.unit + now.between;
+    };
+    const auto holds = [&](const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& r) {
+      ++counts.face_pairs;
+      const Vec3<double> v[4] = {v0, p, q, r};
+      return holds_origin(v, margin);
+    };
+    const Gap(&s)[4] = simplex.p;
+    if (simplex.n == 3 && holds(between(s[0], s[0]), between(s[1], s[1]), between(s[2], s[2])))
+      return true;
+    const Gap *a = nullptr, *b = nullptr;  // the other ends of the edges from the first corner
+    for (int i = 1; i < simplex.n; ++i) {
+      if (!a && !(s[i].a == s[0].a)) a = &s[i];
+      if (!b && !(s[i].b == s[0].b)) b = &s[i];
+    }
+    if (!a || !b) return false;
+    const Vec3<double> p = between(s[0], s[0]), q = between(*a, s[0]), r = between(*a, *b),
+                       t = between(s[0], *b);
+    return holds(p, q, r) || holds(p, r, t);
+  }
+
   bool meets(const Instant& now) {
+    if (passed(now)) return true;
     const Posed at = m.posed(now);
     const int starts = m.a.inner + m.b.inner > 0 ? most_starts : 1;
     for (int i = 0; i < starts; ++i) {
@@ -211,6 +243,13 @@ struct March {
     return start.hit;
   }
 
+  // Is the plane that of a vertex at a face, or of two edges?
+  bool fits(const Plane& plane) const {
+    if (plane.frame == Frame::edges) return true;
+    return simplex.n == 3 && (simplex.kinds([](const Gap& x) { return x.a; }) == 1 ||
+                              simplex.kinds([](const Gap& x) { return x.b; }) == 1);
+  }
+
   void run() {
     if (!m.sure) {
       if (!at_start()) unproved();
@@ -218,21 +257,28 @@ struct March {
     }
     if (!window() || passes()) return;
     Instant now = m.at(from);
+    Plane plane;
+    Gap g;
+    bool goes_on = false;  // with the same plane: Newton's method is at work on it
     for (int segment = 0; segment < most_segments; ++segment) {
       ++counts.steps;
-      const double share = segment < 8 ? 0.5 : 0.99;
-      const Apart apart = apart_at(m, now, axis, touch(), share, simplex, counts);
-      if (!apart.found) {
-        if (!touching()) return;
-        now = m.at(from), simplex.n = 0;
-        continue;
+      if (!goes_on) {
+        const double share = segment < 8 ? 0.5 : 0.99;
+        const Apart apart = apart_at(m, now, axis, touch(), share, simplex, counts);
+        if (!apart.found) {
+          if (!touching()) return;
+          now = m.at(from), simplex.n = 0;
+          continue;
+        }
+        plane = choose(now, apart, segment, g);
       }
-      Gap g;
-      const Plane plane = choose(now, apart, segment, g);
-      const double f = g.along - m.slack, slope = plane.slope(m, now, g);
-      const double h = reach(f, slope, plane.bound(m, from, end, now), segment);
+      const double margin = plane.margin(m), f = g.along - margin, slope = plane.slope(m, now, g);
+      // As the bound grows with the interval, it is that of one about as long.
+      double h = reach(f, slope, plane.bound(m, from, from, now), segment);
+      h = reach(f, slope, plane.bound(m, from, std::fmin(from + h, end), now), segment);
       const Instant then = m.at(std::fmin(from + h, end));
-      const double at_then = height(plane, then).along - m.slack, step = then.t - from;
+      const Gap ended = height(plane, then);
+      const double at_then = ended.along - margin, step = then.t - from;
       const double sure = sure_share(f, at_then, plane.bound(m, from, then.t, now), step);
       const double before = from;
       from = sure == 1 ? then.t : from + sure * step;
@@ -241,9 +287,13 @@ struct March {
         impact.set(from, then.t), name(then, plane.normal(then));
         return;
       }
-      now = sure == 1 ? then : m.at(from);
+      goes_on = sure == 1 && slope < 0 && at_then > 0 && at_then < 0.02 * f && fits(plane);
+      now = sure == 1 ? then : m.at(from), g = ended;
       axis = plane.normal(now);
-      if (!(from > before) && !touching()) return;
+      if (!goes_on) simplex.add(ended);
+      if (from > before) continue;
+      if (!touching()) return;
+      now = m.at(from), simplex.n = 0, goes_on = false;
     }
     unproved();
   }

@@ -76,13 +76,21 @@ struct Instant {
   Vec3<double> between;  // from B's centre to A's
 };
 
-// A's pivot seen from B's is at p + t d. Besides what Posed counts (84 units of the lengths), the
-// matrices of a rotation are off by 30 units from the pose and 20 from the axis and the products,
-// the angle by 1 unit of itself, its sine and cosine by 2 units, their products and sums by 6: a
-// point by (60 + |angle|) units of its distance from the pivot, the pivots by 40 units of p and d.
-// `slack` is 256 + 4 |angle| units of all these lengths.
+// A's pivot seen from B's is at p + t d. How far what is computed may be from what is true, in
+// units u = 2^-53 (verified_pose.hpp counts those of poses):
+// - The matrix of a hull that turns: 70 u from the relative pose; 80 u from the axis, which is off
+//   by 40 u (30 u from the matrix that turns it, 6 u from sums, 4 u from its length); 10 u from
+//   products and sums, 2 u from sine and cosine, and |angle| u as the angle is off by 1 u of
+//   itself.
+// - A point: as much of its distance from the pivot, and 10 u from turning and adding it. The
+// pivots
+//   themselves: 75 u of those in the hulls' axes, 40 u of the way between the poses and of d.
+// `slack` is 256 + 4 |angle| units of all these lengths: more than a point is off, and than the gap
+// along an axis is that is known exactly. An axis that turns is off by 170 + |angle| u of itself,
+// one normal to two edges by twice as much: there the gap is worth twice slack (Plane::margin).
 struct Moving {
   const Hull &a, &b;
+  const ExtremeLists *lists_a, *lists_b;
   Turning of_a, of_b;
   Vec3<double> p, d;
   double unit = 1, slack = 0, away = 0;
@@ -90,7 +98,7 @@ struct Moving {
 
   Moving(const Hull& a_, const Hull& b_, const Pose& pa, const Pose& pb, const Motion& ma,
          const Motion& mb)
-      : a(a_), b(b_) {
+      : a(a_), b(b_), lists_a(a.extreme_lists()), lists_b(b.extreme_lists()) {
     unit = unit_of(a.radius + b.radius);
     const Mat3<double> ra = rotation(pa.q), rb = rotation(pb.q), back = rb.transposed();
     const auto turning = [&](const Hull& hull, const Mat3<double>& r, const Motion& m) {
@@ -131,6 +139,23 @@ struct Moving {
   }
 };
 
+// A vertex of each hull, relative to its centre and in its axes.
+struct Ends {
+  Vec3<double> a, b;
+};
+
+// The vertex of A least along in_a and that of B farthest along in_b, in the hulls' axes.
+inline Ends least_apart(const Hull& a, const ExtremeLists* lists_a, const Vec3<double>& in_a,
+                        const Hull& b, const ExtremeLists* lists_b, const Vec3<double>& in_b) {
+  const double axis_a[3] = {in_a.x, in_a.y, in_a.z}, axis_b[3] = {-in_b.x, -in_b.y, -in_b.z};
+  const CloudView<double> of_a = lists_a ? lists_a->along(-in_a) : a.cloud.view(),
+                          of_b = lists_b ? lists_b->along(in_b) : b.cloud.view();
+  int at[2];
+  kernels<double>.extremes(of_a, axis_a, of_b, axis_b, at);
+  const auto [i, j] = at;
+  return {{of_a.x[i], of_a.y[i], of_a.z[i]}, {of_b.x[j], of_b.y[j], of_b.z[j]}};
+}
+
 // A vertex of each hull, relative to its centre and in its axes, least apart along an axis n from B
 // to A: where the gap along n is more than slack |n|, the hulls are apart.
 struct Gap {
@@ -140,13 +165,16 @@ struct Gap {
 };
 
 inline Gap gap(const Moving& m, const Instant& now, const Vec3<double>& n) {
-  static constexpr double zero[lanes<double>] = {};
-  static constexpr CloudView<double> origin{zero, zero, zero, lanes<double>};
-  const Vec3<double> in_a = now.a.transposed() * n, in_b = now.b.transposed() * n;
+  // The rows of a matrix, each times a component: its transpose times n.
+  const auto in = [&](const Mat3<double>& r) {
+    return r.row[0] * n.x + r.row[1] * n.y + r.row[2] * n.z;
+  };
+  const Vec3<double> in_a = in(now.a), in_b = in(now.b);
+  const Ends ends = least_apart(m.a, m.lists_a, in_a, m.b, m.lists_b, in_b);
   Gap g;
-  g.a = ofg::support(m.a.cloud.view(), origin, in_a);
-  g.b = ofg::support(m.b.cloud.view(), origin, -in_b);
+  g.a = ends.a, g.b = ends.b;
   g.w = (now.a * g.a - now.b * g.b) * m.unit + now.between;
+  // By the products that chose the vertices: n . w would count the choice's rounding twice.
   g.along = (dot(in_a, g.a) - dot(in_b, g.b)) * m.unit + dot(n, now.between);
   return g;
 }

@@ -33,13 +33,16 @@ struct Plane {
     return plane;
   }
 
-  // Bound on the second derivative of n(t) . (x - y), x a point of A and y one of B, over [s, e].
-  // With k the axes of rotation, x = P_A + R_A r, y = P_B + R_B s and w = x - y:
+  // How far rounding may move the gap along it.
+  double margin(const Moving& m) const { return frame == Frame::world ? m.slack : 2 * m.slack; }
+
+  // Bound on the second derivative of n(t) . (x - y), x a point of A and y one of B, over [s, e],
+  // of which `now` is the start. With k the axes of rotation, x = P_A + R_A r, y = P_B + R_B s and
+  // w = x - y:
   // - fixed: of A |angle_A|^2 |n x k_A| |k_A x r|, and B's likewise;
-  // - turning with A: n . R_A r is constant. (n . (P_A - y))'' = n'' . (P_A - y) + 2 n' . (P_A -
-  // y)'
-  //   + n . y'', where n'' and n' are at right angles to k_A and of lengths |angle_A|^2 |n x k_A|
-  //   and |angle_A| |n x k_A|;
+  // - turning with A: n . R_A r is constant. With v = P_A - y, the rest is n'' . v + 2 n' . v'
+  //   + n . v''; n'' and n' are at right angles to k_A and of lengths |angle_A|^2 |n x k_A| and
+  //   |angle_A| |n x k_A|, and y'' at right angles to k_B;
   // - edges, with u_A and u_B the turned edges: n . w = u_B . R_A (r x e_A) - u_A . R_B (e_B x s)
   //   + (u_A x u_B) . (P_A - P_B). A product of two vectors that turn with A and with B has second
   //   derivatives up to (|angle_A| + |angle_B|)^2 of their lengths.
@@ -62,7 +65,9 @@ struct Plane {
     const double far = std::fmax(length(cross(own.axis, from)), length(cross(own.axis, to))) +
                        (own.turns() ? other.reach : 0);
     const double drift = length(cross(own.axis, m.d)) + v * other.swing;
-    return up * (part(own.axis) * (w * w * far + 2 * w * drift) + v * v * other.swing);
+    // The normal turns by w (e - s) |n x k| at most; the other body's points swing across it.
+    const double across = std::fmin(part(other.axis) + w * (e - s) * part(own.axis), 1.0);
+    return up * (part(own.axis) * (w * w * far + 2 * w * drift) + v * v * across * other.swing);
   }
 
   // The rate of the gap between two points, as `gap` found them.

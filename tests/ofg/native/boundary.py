@@ -246,6 +246,17 @@ class Calls:
         made = self.core.PreparedVerified(*pair, self.g.poses(2), self.g.often(0.5))
         made(), made()
 
+    def verified_sweep_many(self):
+        n = int(self.g.random.integers(0, 4))
+        rows = (self.g.poses(n), self.g.poses(n), self.g.motions(n), self.g.motions(n))
+        pair = self.one(self.hulls), self.one(self.hulls)
+        self.core.verified_sweep_many(*pair, *rows, self.threads())
+
+    def prepared_verified_sweep(self):
+        pair = self.one(self.hulls), self.one(self.hulls)
+        made = self.core.PreparedVerifiedSweep(*pair, self.g.poses(2), self.g.motions(2))
+        made(), made()
+
     def threads(self) -> int:
         return self.g.whole() if self.g.often(0.02) else 1
 
@@ -318,6 +329,8 @@ def main(folder: str, calls: int = 10**6, seconds: float = 1e9, seed: int = 1) -
         "hull": 2,
         "verified_many": 4,
         "prepared_verified": 2,
+        "verified_sweep_many": 4,
+        "prepared_verified_sweep": 2,
         "of_mesh": 2,
         "of_pieces": 2,
         "mover": 3,

@@ -150,6 +150,8 @@ struct Kernels {
   int (*oppose)(const OpposedPair&, Opposed&);
   void (*prove)(const SupportView& a, const SupportView& b, const PosedPairs&, int n,
                 const float* inside, Proved&);
+  void (*extremes)(const CloudView<T>& a, const T* axis_a, const CloudView<T>& b, const T* axis_b,
+                   int* at);
 };
 
 }  // namespace ofg

@@ -147,11 +147,14 @@ static void transform(T* x, T* y, T* z, int n, const T* m, const T* p) {
 
 #include "proving_body.hpp"
 
+#include "extremes_body.hpp"
+
 template <class T>
 Kernels<T> kernels() {
   return {nearest<T>,    support<T>,       farthest<T>,    planes_apart<T>, edges_apart<T>,
           planes_gap<T>, segments_miss<T>, boxes_apart<T>, transform<T>,    extreme,
-          reflect,       portal,           pose_pairs,     oppose,          prove};
+          reflect,       portal,           pose_pairs,     oppose,          prove,
+          extremes<T>};
 }
 
 #undef OFG_INLINE
