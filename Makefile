@@ -18,8 +18,8 @@ REUSE := REUSE_ENCODING_MODULE=charset_normalizer $(BIN)/reuse
 
 .PHONY: help env build quick test lint style types layers lines format licences \
 	lock stub engines browser native \
-	native-v3 bench-truth crosscheck attack drill fuzz fuzz-verified fuzz-sweep \
-	fuzz-boundary reproduce clean
+	native-v3 bench-truth crosscheck attack drill fuzz fuzz-verified fuzz-sweep fuzz-boundary \
+	reproduce clean
 help:
 	@echo "make quick        set up, build, run the main job in a few minutes, print its tables"
 	@echo "make test         set up, build, run every test"
@@ -36,7 +36,7 @@ help:
 	@echo "make attack       corrupt thousands of certificates: the checker must refuse them"
 	@echo "make drill        kill, stop and starve runs, and run faulty methods (an hour or more)"
 	@echo "make fuzz         a million random queries under the address and UB sanitizers"
-	@echo "make fuzz-verified  verified OFG alone without sanitizers: QUERIES=100000000 SEED=1"
+	@echo "make fuzz-verified  verified OFG without sanitizers: QUERIES, SECONDS, SEED, FROM (a pair)"
 	@echo "make fuzz-sweep   its sweeps: 100000 under the sanitizers, then QUERIES without"
 	@echo "make fuzz-boundary  a million calls with garbage into both native modules"
 	@echo "make clean        remove the environment and the build (never a run)"
@@ -140,15 +140,17 @@ QUERIES ?= 1000000
 SECONDS ?= 600
 fuzz: build
 	$(BIN)/cmake -S tests/ofg/native -B build/fuzz -DCMAKE_BUILD_TYPE=Release
-	$(BIN)/cmake --build build/fuzz --target fuzz fuzz_verified
+	$(BIN)/cmake --build build/fuzz --target fuzz fuzz_verified fuzz_solid
 	build/fuzz/fuzz $(QUERIES) $(SECONDS)
-	ASAN_OPTIONS=malloc_context_size=0 build/fuzz/fuzz_verified $(QUERIES) $(SECONDS)
+	for name in fuzz_verified fuzz_solid; do \
+		ASAN_OPTIONS=malloc_context_size=0 build/fuzz/$$name $(QUERIES) $(SECONDS) || exit 1; done
 
 SEED ?= 1
+FROM ?= 0
 fuzz-verified: build
 	$(BIN)/cmake -S tests/ofg/native -B build/fuzz -DCMAKE_BUILD_TYPE=Release
 	$(BIN)/cmake --build build/fuzz --target fuzz_verified_plain
-	build/fuzz/fuzz_verified_plain $(QUERIES) $(SECONDS) $(SEED)
+	build/fuzz/fuzz_verified_plain $(QUERIES) $(SECONDS) $(SEED) $(FROM)
 
 fuzz-sweep: build
 	$(BIN)/cmake -S tests/ofg/native -B build/fuzz -DCMAKE_BUILD_TYPE=Release

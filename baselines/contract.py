@@ -74,6 +74,8 @@ class Method(ABC):
     configuration: ClassVar[str]
     questions: ClassVar[frozenset[str]]  #: subset of ofg.QUESTIONS
     bodies: ClassVar[frozenset[str]]  #: subset of {"convex", "union", "mesh"}
+    #: the bodies whose sweeps it answers, if these are fewer
+    swept: ClassVar[frozenset[str] | None] = None
     solid: ClassVar[bool]  #: False: tests surfaces, so it does not detect a contained body
     #: 1: `prepare` gets queries in which only A moves (frames.one_mover). 2: it also reads motion_b
     movers: ClassVar[int] = 1
@@ -139,6 +141,10 @@ class Method(ABC):
         }
         return " ".join([self.name, *(f"{k}={v}" for k, v in shown.items())])
 
+    def kinds(self, question: str) -> frozenset[str]:
+        """The kinds of bodies that it declares for a question."""
+        return self.bodies if question == "overlap" or self.swept is None else self.swept
+
     def ready(self, query: Query) -> Callable[[], Verdict]:
         """The callable that answers `query`. A harness calls this, not `prepare`.
 
@@ -160,7 +166,7 @@ class Method(ABC):
         if query.question not in self.questions:
             raise Unsupported(f"does not answer {query.question}")
         for body in (query.a, query.b):
-            if body.kind not in self.bodies:
+            if body.kind not in self.kinds(query.question):
                 raise Unsupported(f"does not support {body.kind} bodies")
 
     @abstractmethod

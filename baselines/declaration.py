@@ -51,6 +51,8 @@ def _wrong(cls: type[Method]):
             or not set(value) <= known
         ):
             yield name, f"is {value!r}; it must be a set of {', '.join(sorted(known))}"
+    if cls.swept is not None and not set(cls.swept) <= set(cls.bodies):
+        yield "swept", f"is {cls.swept!r}; it must be some of the method's bodies, or None"
     if not isinstance(cls.solid, bool):
         yield "solid", f"is {cls.solid!r}; it must be True (tests solids) or False (tests surfaces)"
     if hasattr(cls, "margin"):

@@ -22,13 +22,14 @@ from .sampling import Discrete, Substeps
 
 class VerifiedOverlap(Discrete):
     """Opposing faces by a table of directions, a portal over their vertices, an answer that the
-    whole bodies confirm, and exact arithmetic where doubles cannot. Unions by pairs of pieces.
+    whole bodies confirm, and exact arithmetic where doubles cannot. Unions by pairs of pieces and
+    meshes by pairs of faces, which trees of boxes exclude or which are asked.
     """
 
     engine = "ofg"
     imports = "ofg"
     configuration = "best effort"
-    bodies = frozenset({"convex", "union"})
+    bodies = frozenset({"convex", "union", "mesh"})
     solid = True
     places_b = True
     guarantee = "every answer is proved, in doubles by more than their rounding or exactly"
@@ -55,6 +56,7 @@ class Verified(VerifiedOverlap):
 
     name = "ofg-verified"
     questions = frozenset(QUESTIONS)
+    swept = frozenset({"convex", "union"})
     movers, about = 2, True
     gives_time = True
     #: but where the approach takes 1e5 steps for the bodies' size, and for contacts not told from
@@ -87,6 +89,7 @@ class Portal(VerifiedOverlap):
 
     name = "ofg-mpr"
     configuration = "alternative"
+    bodies = frozenset({"convex", "union"})  # a mesh has no opposing faces to leave out
     selection = False
 
 

@@ -31,12 +31,12 @@ def asked(method: Method, query: Query) -> Verdict:
     return method.ready(query)()
 
 
-def kinds(method: Method) -> list[str]:
-    return [k for k in KINDS if k in method.bodies]
+def kinds(method: Method, question: str = "overlap") -> list[str]:
+    return [k for k in KINDS if k in method.kinds(question)]
 
 
 def sweeps(method: Method) -> list[tuple[str, str]]:
-    return [(q, k) for q in QUESTIONS[1:] if q in method.questions for k in kinds(method)]
+    return [(q, k) for q in QUESTIONS[1:] if q in method.questions for k in kinds(method, q)]
 
 
 def easy(method: Method) -> list[tuple[str, Query, bool]]:
@@ -237,7 +237,7 @@ def moved_together(method: Method) -> Iterator[str]:
 
 def refuses(method: Method) -> Iterator[str]:
     for question, kind in itertools.product(QUESTIONS, KINDS):
-        if question in method.questions and kind in method.bodies:
+        if question in method.questions and kind in method.kinds(question):
             continue
         query = (
             overlap(kind, (3, 0, 0))
@@ -258,7 +258,7 @@ def refuses(method: Method) -> Iterator[str]:
 def translation_is_motion(method: Method) -> Iterator[str]:
     if not {"translation", "motion"} <= set(method.questions):
         return
-    for kind, side in itertools.product(kinds(method), (0.2, 2.5)):
+    for kind, side in itertools.product(kinds(method, "motion"), (0.2, 2.5)):
         a, b = (
             asked(method, sweep(q, kind, (-5, side, 0.1), (10, 0, 0)))
             for q in ("translation", "motion")
@@ -276,7 +276,7 @@ def turns(method: Method) -> Iterator[str]:
     """
     if "motion" not in method.questions:
         return
-    for kind in kinds(method):
+    for kind in kinds(method, "motion"):
         for angle, hit in ((math.radians(170), True), (0.0, False)):
             at, motion = Pose(position=(0, 2, 0)), Motion((0, 0, 0.01), (0, 0, 1), angle)
             verdict = asked(method, Query("motion", bar(kind), body(kind, 0.4), Pose(), at, motion))
@@ -353,7 +353,7 @@ def _blind(method: Method, longest: float) -> bool:
 
 
 def _turned_kinds(method: Method) -> list[str]:
-    return kinds(method) if "motion" in method.questions else []
+    return kinds(method, "motion") if "motion" in method.questions else []
 
 
 def _word(verdict: Verdict) -> str:

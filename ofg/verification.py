@@ -20,8 +20,8 @@ from .pose import Pose
 from .query import Query
 from .solid import BodyError
 
-_HULLS: OrderedDict[str, _core.Hulls] = OrderedDict()
-_KEPT_HULLS = 256
+_SOLIDS: OrderedDict[str, _core.VerifiedSolid] = OrderedDict()
+_KEPT_SOLIDS = 256
 
 
 class PairCache:
@@ -40,24 +40,30 @@ def verified(
 ) -> Answer:
     """Do the interiors of `a` and `b` meet at these poses? Never a miss and never a false alarm.
 
-    a, b: convex bodies, or unions, whose pairs of pieces are excluded by bounding spheres or asked.
-    A table of directions selects the vertices of the faces that oppose each other, a portal tests
-    them, and the answer is verified: a hit by a tetrahedron of differences of points of both that
-    holds the origin by more than rounding, a clear by a plane that the whole bodies confirm by more
-    than rounding. Where these object the selection grows, and what doubles cannot prove is decided
-    exactly on the vertices, quaternions and positions as they are given. Bodies that only touch are
-    clear, and what they are called may not be relied on: contact is one rounding of a pose away.
+    a, b: bodies of any kind. Of unions every pair of pieces, of meshes every pair of faces is
+    excluded by the boxes of a tree or asked, the deepest first, until one meets. Two meshes meet
+    where faces cross, or where none do and a shell of one lies inside the other. Of two convex
+    bodies or pieces, a table of directions selects the vertices of the faces that oppose each
+    other, a portal tests them, and the answer is verified: a hit by a tetrahedron of differences of
+    points of both that holds the origin by more than rounding, a clear by a plane that the whole
+    bodies confirm by more than rounding. Where these object the selection grows, and what doubles
+    cannot prove is decided exactly on the vertices, quaternions and positions as they are given.
+    Convex bodies, and unions, that only touch are clear. What meshes that only touch are called may
+    not be relied on: there `b` is moved by less than any number, so that no vertex lies on a face.
 
-    Answer.found: "start", with the faces that oppose each other where the portal was left; they
-    need not cross. "inside" where inscribed balls meet, without faces. Answer.time is NaN.
-    counts: spheres (pairs compared), distances (of vertices along an axis), face_pairs (portals
-    tried), full_tests (verifications: supports of the whole bodies), growths (those that objected),
-    steps (pairs of pieces, and 1 more for each that took exact arithmetic).
+    Answer.found: "start", with the faces of two convex bodies that oppose each other where the
+    portal was left (they need not cross), or those of two meshes that cross. "inside" where
+    inscribed balls meet or a shell is inside, without faces. Answer.time is NaN.
+    counts: spheres (pairs compared), evaluated (pairs of boxes), distances (of vertices along an
+    axis), face_pairs (portals tried; pairs of faces of meshes), full_tests (verifications: supports
+    of the whole bodies), growths (those that objected), steps (pairs of pieces, or 1 for meshes,
+    and 1 more for each that took exact arithmetic).
 
     cache: of this pair, or None. Lengths in the unit of the bodies. Raises TypeError for what is of
     another type, ValueError for bodies or poses out of range (as of `discrete`), BodyError (a
-    ValueError) for an undivided mesh and for bodies that are exactly flat. Sources: Snethen,
-    XenoCollide, Game Programming Gems 7, 2008; Kara, Opposing Face Geometry, GameDev.net 2004.
+    ValueError) for bodies that are exactly flat and for open surfaces. Sources: Snethen,
+    XenoCollide, Game Programming Gems 7, 2008; Kara, Opposing Face Geometry, GameDev.net 2004;
+    Edelsbrunner and Muecke, Simulation of Simplicity, ACM Transactions on Graphics 9, 1990.
     """
     checks.pose(pose_a, "pose_a")
     checks.pose(pose_b, "pose_b")
@@ -98,7 +104,7 @@ def _many(
     at_a, at_b = broadcast([rows_of(poses_a, Pose, "poses_a"), rows_of(poses_b, Pose, "poses_b")])
     kept = cache.core if cache is not None else None
     hit, time, found, faces, pieces, counts = _core.verified_many(
-        hulls(a, "a"), hulls(b, "b"), at_a, at_b, kept, True, count
+        solid_of(a, "a"), solid_of(b, "b"), at_a, at_b, kept, True, count
     )
     return Answers(hit, time, found, faces, pieces, counts, "none")
 
@@ -115,7 +121,7 @@ def prepare_verified(query: Query, *, selection: bool = True) -> _core.PreparedV
         raise ValueError(f"Query.question = '{query.question}'; verified OFG answers 'overlap'.")
     poses = np.array([row(query.pose_a), row(query.pose_b)])
     checks.truth("selection", selection)
-    return _core.PreparedVerified(hulls(query.a, "a"), hulls(query.b, "b"), poses, selection)
+    return _core.PreparedVerified(solid_of(query.a, "a"), solid_of(query.b, "b"), poses, selection)
 
 
 def prepare_spheres(
@@ -129,30 +135,27 @@ def prepare_spheres(
     """
     checks.query(query)
     poses = np.array([row(query.pose_a), row(query.pose_b)])
-    solids = hulls(query.a, "a"), hulls(query.b, "b")
+    solids = solid_of(query.a, "a"), solid_of(query.b, "b")
     return _core.PreparedSpheres(*solids, poses, clear, hit, otherwise)
 
 
-def hulls(body: Body, name: str = "body") -> _core.Hulls:
-    """The core's form of a body's convex pieces with their tables, built when first asked and kept
-    for the last few hundred bodies by content. BodyError for an undivided mesh and a flat piece.
+def solid_of(body: Body, name: str = "body") -> _core.VerifiedSolid:
+    """The core's form of a body with its tables and its tree, built when first asked and kept for
+    the last few hundred bodies by content. BodyError for a flat body and an open surface.
     """
     checks.body(body, name)
-    if body.kind == "mesh":
-        raise BodyError(
-            f"Body '{body.name}' is an undivided mesh, and verified OFG takes convex bodies and"
-            " unions of them; use ofg.decompose first."
-        )
     checks.coordinates(body)
     key = body.digest
-    if key in _HULLS:
-        _HULLS.move_to_end(key)
-        return _HULLS[key]
+    if key in _SOLIDS:
+        _SOLIDS.move_to_end(key)
+        return _SOLIDS[key]
+    closed = body.kind == "mesh"
+    parts = (body,) if closed else body.pieces
     try:
-        made = _core.Hulls([p.vertices for p in body.pieces], [p.faces for p in body.pieces])
+        made = _core.VerifiedSolid([p.vertices for p in parts], [p.faces for p in parts], closed)
     except ValueError as error:
         raise BodyError(f"Body '{body.name}': {error}.") from error
-    _HULLS[key] = made
-    if len(_HULLS) > _KEPT_HULLS:
-        _HULLS.popitem(last=False)
+    _SOLIDS[key] = made
+    if len(_SOLIDS) > _KEPT_SOLIDS:
+        _SOLIDS.popitem(last=False)
     return made

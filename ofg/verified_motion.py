@@ -16,7 +16,8 @@ from .impact import Impact, Impacts
 from .motion import Motion
 from .pose import Pose
 from .query import Query
-from .verification import hulls
+from .solid import BodyError
+from .verification import solid_of
 
 
 def verified_sweep(
@@ -71,7 +72,7 @@ def verified_sweep_many(
     )
     at_a, at_b, along_a, along_b = broadcast([rows_of(*each) for each in given])
     (hit, time, found, faces, pieces, counts), latest, proved = _core.verified_sweep_many(
-        hulls(a, "a"), hulls(b, "b"), at_a, at_b, along_a, along_b, count
+        pieces_of(a, "a"), pieces_of(b, "b"), at_a, at_b, along_a, along_b, count
     )
     return Impacts(hit, time, found, faces, pieces, counts, "none", latest, proved)
 
@@ -85,4 +86,17 @@ def prepare_verified_sweep(query: Query) -> _core.PreparedVerifiedSweep:
         raise ValueError("Query.question = 'overlap'; use prepare_verified.")
     poses = np.array([row(query.pose_a), row(query.pose_b)])
     motions = np.array([row(query.motion), row(query.motion_b)])
-    return _core.PreparedVerifiedSweep(hulls(query.a, "a"), hulls(query.b, "b"), poses, motions)
+    return _core.PreparedVerifiedSweep(
+        pieces_of(query.a, "a"), pieces_of(query.b, "b"), poses, motions
+    )
+
+
+def pieces_of(body: Body, name: str) -> _core.VerifiedSolid:
+    """The core's form of a body that moves. BodyError for an undivided mesh and a flat body."""
+    checks.body(body, name)
+    if body.kind == "mesh":
+        raise BodyError(
+            f"Body '{body.name}' is an undivided mesh, and verified OFG moves convex bodies and"
+            " unions of them; use ofg.decompose first."
+        )
+    return solid_of(body, name)

@@ -62,9 +62,11 @@ inline Body read_body(Reader& r) {
   body.vertices.resize(3 * std::size_t(r.one<std::uint32_t>()));
   body.faces.resize(3 * std::size_t(r.one<std::uint32_t>()));
   body.convex = r.one<std::uint32_t>();
+  const auto pieces = r.one<std::uint32_t>();
   body.radius = r.one<double>();
   r.many(body.vertices.data(), body.vertices.size());
   r.many(body.faces.data(), body.faces.size());
+  for (std::uint32_t i = 0; i < pieces; ++i) body.pieces.push_back(read_body(r));
   return body;
 }
 
@@ -89,7 +91,7 @@ inline CaseFile read_case_file(const char* path) {
   if (!r.in) fail(std::string("case file ") + path + " cannot be read.");
   char magic[8];
   r.many(magic, 8);
-  if (std::string(magic, 8) != "OFGLANE2")
+  if (std::string(magic, 8) != "OFGLANE3")
     fail(std::string(path) + " is no case file of this native lane; baselines.native writes them.");
   CaseFile file;
   const auto bodies = r.one<std::uint32_t>(), cases = r.one<std::uint32_t>();

@@ -22,8 +22,9 @@ from ..units import Normalised
 def write(path: Path, queries: list[Query], block: int = 1, apart: bool = False) -> None:
     """Each body once, then a case per query; `block` of them, one after the other, are one timing.
 
-    apart: every query gets bodies of its own, even where two are equal. ValueError for a union, or
-    where the queries are no whole number of blocks. Unsupported where both bodies turn.
+    apart: every query gets bodies of its own, even where two are equal. A union is the faces of all
+    its pieces, followed by the pieces. ValueError where the queries are no whole number of blocks.
+    Unsupported where both bodies turn.
     """
     if block < 1 or len(queries) % block:
         raise ValueError(f"{len(queries)} queries are no whole number of blocks of {block}.")
@@ -45,7 +46,7 @@ def write(path: Path, queries: list[Query], block: int = 1, apart: bool = False)
         for name, length in lengths().items()
     ]
     head = struct.pack("<IIII", len(bodies), len(cases), block, len(units))
-    path.write_bytes(b"OFGLANE2" + head + b"".join(units + blocks + cases))
+    path.write_bytes(b"OFGLANE3" + head + b"".join(units + blocks + cases))
 
 
 @cache
@@ -64,15 +65,12 @@ def _key(body: Body, place: tuple) -> tuple:
 
 
 def _body(body: Body) -> bytes:
-    if body.kind == "union":
-        raise ValueError(
-            f"Body '{body.name}' is a union, which the native lane does not take; "
-            "ask it about convex bodies and meshes."
-        )
-    head = struct.pack(
-        "<IIId", len(body.vertices), len(body.faces), body.kind == "convex", body.radius
-    )
-    return head + body.vertices.astype("<f8").tobytes() + body.faces.astype("<i4").tobytes()
+    pieces = body.pieces if body.kind == "union" else ()
+    convex = body.kind == "convex"
+    sizes = len(body.vertices), len(body.faces), convex, len(pieces)
+    rows = body.vertices.astype("<f8").tobytes() + body.faces.astype("<i4").tobytes()
+    head = struct.pack("<IIIId", *sizes, body.radius)
+    return head + rows + b"".join(_body(piece) for piece in pieces)
 
 
 def _numbers(query: Query) -> bytes:

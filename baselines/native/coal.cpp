@@ -80,6 +80,37 @@ struct Coal : Base {
   }
 };
 
+struct Pieces final : lane::Unions {
+  coal::CollisionRequest request;
+  std::vector<std::vector<Geometry>> made;
+  std::vector<std::vector<coal::ComputeCollision>> collide;  // all pairs of pieces of a case
+  std::vector<coal::Transform3s> a, b;
+
+  explicit Pieces(const char* name) : Unions(name) {}
+
+  void build(const std::vector<lane::Body>& bodies, const std::vector<lane::Case>& cases) override {
+    for (const auto& body : bodies) {
+      made.emplace_back();
+      for (const auto& piece : body.pieces) made.back().push_back(convex(piece));
+    }
+    for (const auto& c : cases) {
+      collide.emplace_back();
+      for (const auto& p : made[c.a])
+        for (const auto& q : made[c.b]) collide.back().emplace_back(p.get(), q.get());
+      a.push_back(transform(c.pose_a)), b.push_back(transform(c.pose_b));
+    }
+  }
+
+  lane::Verdict ask(std::size_t i) override {
+    coal::CollisionResult result;
+    for (const auto& pair : collide[i]) {
+      result.clear();
+      if (pair(a[i], b[i], request, result) > 0) return {true};
+    }
+    return {false};
+  }
+};
+
 struct Guessing final : Coal<lane::Remembering> {
   Guessing(const char* name, bool exact) : Coal(name, convex, exact) {
     request.gjk_initial_guess = coal::GJKInitialGuess::CachedGuess;
@@ -97,6 +128,7 @@ extern "C" void lane_engines(lane::Engines& engines) {
   const auto add = [&](auto engine) { engines.push_back(std::move(engine)); };
   add(std::make_unique<Hulls>("coal-convex", convex, false));
   add(std::make_unique<Hulls>("coal-convex-exact", convex, true));
+  add(std::make_unique<Pieces>("coal-convex"));
   add(std::make_unique<Coal<lane::Surfaces>>("coal-mesh", mesh, false));
   add(std::make_unique<Guessing>("coal-convex, cached guess", false));
   add(std::make_unique<Guessing>("coal-convex-exact, cached guess", true));

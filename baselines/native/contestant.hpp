@@ -19,7 +19,8 @@ struct Contestant {
   Engine* engine;
   Mode mode;
   std::vector<std::size_t> blocks;  // first cases of those it answers
-  long long build;                  // nanoseconds, all cases
+  long long build;                  // nanoseconds, all bodies and cases
+  std::size_t bodies;               // that it was built of
   std::vector<Verdict> verdicts;
   std::vector<long long> times;  // round by round, block by block; -1 where it took no part
   bool slow = false;             // takes part in the first, the middle and the last round alone
@@ -28,8 +29,11 @@ struct Contestant {
 // The blocks of which the engine answers every case.
 inline std::vector<std::size_t> blocks_of(const Engine& engine, const CaseFile& file) {
   const auto takes = [&](const Case& c) {
-    const bool hulls = file.bodies[c.a].convex && file.bodies[c.b].convex;
-    return engine.answers(c.question) && (hulls || engine.takes_meshes());
+    const Body &a = file.bodies[c.a], &b = file.bodies[c.b];
+    const bool taken = a.convex && b.convex                   ? engine.takes_hulls()
+                       : a.pieces.empty() && b.pieces.empty() ? engine.takes_meshes()
+                                                              : engine.takes_unions();
+    return engine.answers(c.question) && taken;
   };
   std::vector<std::size_t> blocks;
   for (std::size_t i = 0; i < file.cases.size(); i += file.block) {
@@ -39,9 +43,13 @@ inline std::vector<std::size_t> blocks_of(const Engine& engine, const CaseFile& 
   return blocks;
 }
 
+struct Built {
+  long long ns = -1;
+  std::size_t bodies = 0;
+};
+
 // Builds an engine of its cases alone: others may be of bodies that it refuses.
-inline long long built(Engine& engine, const CaseFile& file,
-                       const std::vector<std::size_t>& blocks) {
+inline Built built(Engine& engine, const CaseFile& file, const std::vector<std::size_t>& blocks) {
   std::vector<Case> cases = file.cases;
   std::vector<bool> mine(cases.size());
   for (const std::size_t first : blocks)
@@ -60,7 +68,7 @@ inline long long built(Engine& engine, const CaseFile& file,
       }
       *body = place[*body];
     }
-  const auto known = file.lengths.find(engine.name.substr(0, engine.name.find(' ')));
+  const auto known = file.lengths.find(engine.asked_as());
   engine.length = known == file.lengths.end() ? 0 : known->second;
   const auto start = Clock::now();
   if (engine.length > 0) {
@@ -69,7 +77,7 @@ inline long long built(Engine& engine, const CaseFile& file,
   } else {
     engine.build(bodies, cases);
   }
-  return std::chrono::nanoseconds(Clock::now() - start).count();
+  return {std::chrono::nanoseconds(Clock::now() - start).count(), bodies.size()};
 }
 
 inline std::vector<Contestant> contestants_of(const Engines& engines, const CaseFile& file,
@@ -77,10 +85,10 @@ inline std::vector<Contestant> contestants_of(const Engines& engines, const Case
   std::vector<Contestant> all;
   for (const auto& engine : engines) {
     auto blocks = blocks_of(*engine, file);
-    long long build = -1;
+    Built build;
     for (const Mode mode : modes) {
       if (blocks.empty() || !engine->stands(mode)) continue;
-      if (build < 0) {
+      if (build.ns < 0) {
         build = built(*engine, file, blocks);
         std::erase_if(blocks, [&](std::size_t first) {
           for (std::size_t i = 0; i < file.block; ++i)
@@ -89,7 +97,7 @@ inline std::vector<Contestant> contestants_of(const Engines& engines, const Case
         });
         if (blocks.empty()) break;
       }
-      Contestant one{engine.get(), mode, blocks, build, {}, {}};
+      Contestant one{engine.get(), mode, blocks, build.ns, build.bodies, {}, {}};
       one.verdicts.resize(blocks.size() * file.block);
       all.push_back(std::move(one));
     }

@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: MIT
 
-// FCL's overlap tests, of convex bodies by both of its solvers and of surfaces, as baselines/fcl.py
-// asks them. Transforms are made beforehand.
+// FCL's overlap tests, of convex bodies by both of its solvers, of surfaces, and of unions by all
+// pairs of pieces, as baselines/fcl.py asks them. Transforms are made beforehand.
 #include "fcl_shapes.hpp"
 
 namespace {
@@ -37,6 +37,34 @@ struct Overlap : Base {
   }
 };
 
+struct Pieces final : lane::Unions {
+  fcl::CollisionRequestd request;
+  std::vector<std::vector<shapes::Geometry>> made;
+  std::vector<lane::Case> cases;
+  std::vector<fcl::Transform3d, Eigen::aligned_allocator<fcl::Transform3d>> at_a, at_b;
+
+  explicit Pieces(const char* name) : Unions(name) { request.gjk_solver_type = fcl::GST_LIBCCD; }
+
+  void build(const std::vector<lane::Body>& bodies, const std::vector<lane::Case>& asked) override {
+    for (const auto& body : bodies) {
+      made.emplace_back();
+      for (const auto& piece : body.pieces) made.back().push_back(shapes::convex(piece));
+    }
+    cases = asked;
+    for (const auto& c : cases)
+      at_a.push_back(shapes::transform(c.pose_a)), at_b.push_back(shapes::transform(c.pose_b));
+  }
+
+  lane::Verdict ask(std::size_t i) override {
+    for (const auto& a : made[cases[i].a])
+      for (const auto& b : made[cases[i].b]) {
+        fcl::CollisionResultd result;
+        if (fcl::collide(a.get(), at_a[i], b.get(), at_b[i], request, result) > 0) return {true};
+      }
+    return {false};
+  }
+};
+
 // FCL's own solver takes a guess, libccd none.
 struct Guessing final : Overlap<lane::Remembering> {
   Guessing() : Overlap("fcl-convex-indep, cached guess", shapes::convex, fcl::GST_INDEP) {
@@ -54,5 +82,6 @@ extern "C" void lane_engines(lane::Engines& engines) {
   add(std::make_unique<Hulls>("fcl-convex-exact", shapes::convex, fcl::GST_LIBCCD));
   add(std::make_unique<Hulls>("fcl-convex-indep", shapes::convex, fcl::GST_INDEP));
   add(std::make_unique<Guessing>());
+  add(std::make_unique<Pieces>("fcl-convex"));
   add(std::make_unique<Overlap<lane::Surfaces>>("fcl-mesh", shapes::mesh, fcl::GST_LIBCCD));
 }

@@ -30,7 +30,8 @@ struct Body {
   std::vector<double> vertices;     // 3 n
   std::vector<std::int32_t> faces;  // 3 m
   double radius = 0;                // of its frame's origin to the farthest vertex
-  bool convex = true;               // else a closed mesh
+  bool convex = true;               // else a closed mesh, or the faces of all pieces
+  std::vector<Body> pieces;         // convex, of a union alone
   std::size_t n() const { return vertices.size() / 3; }
   std::size_t m() const { return faces.size() / 3; }
 };
@@ -87,12 +88,17 @@ struct Engine {
   virtual bool answers(Question question) const { return question == Question::overlap; }
   virtual bool stands(Mode mode) const { return mode != Mode::batch; }
   virtual bool takes_meshes() const { return false; }  // closed and not convex
+  virtual bool takes_hulls() const { return true; }
+  virtual bool takes_unions() const { return false; }
   virtual void build(const std::vector<Body>& bodies, const std::vector<Case>& cases) = 0;
   virtual bool refuses(std::size_t) const { return false; }  // a case, once it is built
   virtual Verdict ask(std::size_t i) = 0;
   virtual void ask_many(std::size_t, std::size_t, Verdict*) {}  // n cases from the first on
   virtual void turn() {}                                        // before its turn in each round
   virtual void forget() {}  // what it remembers, before each trajectory
+  // The method whose unit of units.csv it gets.
+  virtual std::string asked_as() const { return name.substr(0, name.find(' ')); }
+  virtual long long bytes() const { return -1; }  // of all its bodies, once built; -1: unknown
 
   const std::string name;  // of the method of the Python lane that asks the same, if there is one
   std::string isa = LANE_ISA, build_of = LANE_BUILD;
@@ -105,11 +111,21 @@ struct Remembering : Engine {
   bool stands(Mode mode) const override { return mode == Mode::coherent; }
 };
 
-// One that tests surfaces: each pair of bodies once, as it is far slower than hulls.
+// One that tests surfaces: each pair of bodies once, as it is far slower than hulls. A union is the
+// faces of all its pieces.
 struct Surfaces : Engine {
   using Engine::Engine;
   bool stands(Mode mode) const override { return mode == Mode::cold; }
   bool takes_meshes() const override { return true; }
+  bool takes_unions() const override { return true; }
+};
+
+// One that tests the pieces of unions. Convex bodies are asked elsewhere.
+struct Unions : Engine {
+  using Engine::Engine;
+  bool stands(Mode mode) const override { return mode == Mode::cold; }
+  bool takes_hulls() const override { return false; }
+  bool takes_unions() const override { return true; }
 };
 
 using Engines = std::vector<std::unique_ptr<Engine>>;

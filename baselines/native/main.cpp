@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "rounds.hpp"
+#include "spheres.hpp"
 
 namespace {
 
@@ -26,6 +27,7 @@ struct Floor final : lane::Engine {
   bool answers(lane::Question) const override { return true; }
   bool stands(lane::Mode) const override { return true; }
   bool takes_meshes() const override { return true; }
+  bool takes_unions() const override { return true; }
   void build(const std::vector<lane::Body>&, const std::vector<lane::Case>&) override {}
   lane::Verdict ask(std::size_t) override { return {false}; }
 };
@@ -36,6 +38,7 @@ struct Probe final : lane::Engine {
   Probe() : Engine("(noise probe)") { isa = build_of = ""; }
   bool answers(lane::Question) const override { return true; }
   bool takes_meshes() const override { return true; }
+  bool takes_unions() const override { return true; }
   void build(const std::vector<lane::Body>&, const std::vector<lane::Case>&) override {}
   lane::Verdict ask(std::size_t) override {
     double x = kept;
@@ -66,7 +69,13 @@ lane::Engines opened(int n, char** plugins) {
     void* plugin = dlopen(plugins[i], RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
     void* made = plugin ? dlsym(plugin, "lane_engines") : nullptr;
     if (!made) fail(std::string("plugin ") + plugins[i] + " does not open: " + dlerror());
-    reinterpret_cast<decltype(&lane_engines)>(made)(engines);
+    const auto make = reinterpret_cast<decltype(&lane_engines)>(made);
+    make(engines);
+    lane::Engines again;  // of their own, as each is built of its cases
+    make(again);
+    for (auto& engine : again)
+      if (lane::gets_spheres(engine->name))
+        engines.push_back(std::make_unique<lane::Spheres>(std::move(engine)));
   }
   return engines;
 }
@@ -81,14 +90,15 @@ void write(const std::string& folder, const std::vector<lane::Contestant>& all, 
            int rounds) {
   std::FILE *who = csv(folder, "contestants"), *said = csv(folder, "answers"),
             *took = csv(folder, "times");
-  std::fprintf(who, "id,engine,isa,build,mode,build_ns\n");
+  std::fprintf(who, "id,engine,isa,build,mode,build_ns,built,bytes\n");
   std::fprintf(said, "id,case,hit,time\n");
   std::fprintf(took, "id,block,queries");
   for (int r = 0; r < rounds; ++r) std::fprintf(took, ",round%d", r);
   for (std::size_t id = 0; id < all.size(); ++id) {
     const lane::Contestant& c = all[id];
-    std::fprintf(who, "%zu,\"%s\",%s,\"%s\",%s,%lld\n", id, c.engine->name.c_str(),
-                 c.engine->isa.c_str(), c.engine->build_of.c_str(), names[int(c.mode)], c.build);
+    std::fprintf(who, "%zu,\"%s\",%s,\"%s\",%s,%lld,%zu,%lld\n", id, c.engine->name.c_str(),
+                 c.engine->isa.c_str(), c.engine->build_of.c_str(), names[int(c.mode)], c.build,
+                 c.bodies, c.engine->bytes());
     for (std::size_t i = 0; i < c.verdicts.size(); ++i)
       std::fprintf(said, "%zu,%zu,%d,%.17g\n", id, c.blocks[i / block] + i % block,
                    int(c.verdicts[i].hit), c.verdicts[i].time);

@@ -46,8 +46,9 @@ struct Ofg final : lane::Engine {
     turn();
     bodies.resize(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const auto& [v, f, radius, convex] = all[i];
-      bodies[i].whole = ofg::Mesh<T>(v.data(), all[i].n(), f.data(), all[i].m(), convex);
+      const lane::Body& body = all[i];
+      bodies[i].whole =
+          ofg::Mesh<T>(body.vertices.data(), body.n(), body.faces.data(), body.m(), body.convex);
       bodies[i].close();
     }
     cases = asked;

@@ -13,6 +13,7 @@ struct ParryManifolds;
 ParryShape* parry_hull(const double* vertices, std::size_t n);
 ParryShape* parry_mesh(const double* vertices, std::size_t n, const std::uint32_t* faces,
                        std::size_t m);
+ParryShape* parry_compound(const double* const* vertices, const std::size_t* n, std::size_t pieces);
 void parry_free(ParryShape*);
 bool parry_overlap(const ParryShape* a, const lane::Pose* at, const ParryShape* b,
                    const lane::Pose* bt);
@@ -57,6 +58,21 @@ struct Shapes : Base {
 
   lane::Verdict ask(std::size_t i) override {
     return {parry_overlap(a(i), &cases[i].pose_a, b(i), &cases[i].pose_b)};
+  }
+};
+
+struct Compounds final : Shapes<lane::Unions> {
+  explicit Compounds(const char* name) : Shapes(name, false) {}
+
+  void build(const std::vector<lane::Body>& bodies, const std::vector<lane::Case>& asked) override {
+    for (const auto& body : bodies) {
+      std::vector<const double*> vertices;
+      std::vector<std::size_t> n;
+      for (const auto& piece : body.pieces)
+        vertices.push_back(piece.vertices.data()), n.push_back(piece.n());
+      shapes.push_back(parry_compound(vertices.data(), n.data(), n.size()));
+    }
+    cases = asked;
   }
 };
 
@@ -107,6 +123,7 @@ extern "C" void lane_engines(lane::Engines& engines) {
   engines.push_back(std::make_unique<Shapes<lane::Engine>>("parry", false));
   engines.push_back(std::make_unique<Shapes<lane::Engine>>("parry-exact", false));
   engines.push_back(std::make_unique<Shapes<lane::Surfaces>>("parry-mesh", true));
+  engines.push_back(std::make_unique<Compounds>("parry"));
   engines.push_back(std::make_unique<Cast>());
   engines.push_back(std::make_unique<Kept>("parry, kept manifold"));
   engines.push_back(std::make_unique<Kept>("parry-exact, kept manifold"));

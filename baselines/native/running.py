@@ -29,7 +29,8 @@ class Taken:
     """What one start of `lane` gave. A contestant is an engine's build in a mode.
 
     contestants: index id; engine (named as the method of the Python lane that asks the same, where
-    there is one), isa, build (who built it), mode, build_ns (of all bodies and cases).
+    there is one), isa, build (who built it), mode, build_ns (of all bodies and cases), built (how
+    many bodies), bytes (of all of them with their tables; -1 where unknown).
     answers: id, case (index of the query), hit, time.
     times: id, block (its first case), queries in it, round0, round1, ...: nanoseconds, gross; NaN
     but for three rounds where a contestant takes more than half a second for its turn.
@@ -52,8 +53,7 @@ def run(
     """Ask every engine that is built, each in those of `modes` that it knows.
 
     block: so many queries, one after the other, are timed together. core: run on this one.
-    NativeError where the lane is not built or fails. ValueError for a union, Unsupported where both
-    bodies turn.
+    NativeError where the lane is not built or fails. Unsupported where both bodies turn.
     """
     if not (folder / "lane").is_file():
         raise NativeError("The native lane is not built; build it with: ofg-bench native --build")

@@ -12,9 +12,9 @@ import pandas as pd
 from baselines import registry
 from baselines.tolerance import NONE, Tolerance
 from experiments.run import piece_truth
+from experiments.run.bins import situation_of
 from experiments.run.folder.rows import filled
 from experiments.run.folder.store import Store, StoreError
-from experiments.run.timing import situation_of
 
 from . import nesting
 

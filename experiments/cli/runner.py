@@ -22,7 +22,16 @@ from experiments.analysis import outcome, tables
 from experiments.analysis.plots import curves, figures
 from experiments.cases import families
 from experiments.publish.report import report as html_report
-from experiments.run import answering, declared, decomposing, labelling, ownfile, progress, timing
+from experiments.run import (
+    answering,
+    declared,
+    decomposing,
+    labelling,
+    ownfile,
+    progress,
+    timing,
+)
+from experiments.run.bins import situation_of, size_of
 from experiments.run.config import ConfigError, RunConfig
 from experiments.run.folder import manifest, origin
 from experiments.run.folder.store import Store, StoreError
@@ -181,7 +190,7 @@ class Paces:
     def __init__(self, store: Store, config: RunConfig, workers: int, forecast: progress.Forecast):
         self.config, self.workers, self.forecast, self.begun = config, workers, forecast, None
         cases = store.read("cases.parquet").assign(
-            situation=timing.situation_of, faces=lambda c: timing.size_of(c.faces)
+            situation=situation_of, faces=lambda c: size_of(c.faces)
         )
         self.question = dict(zip(cases.case, cases.question))
         bins = (

@@ -35,28 +35,18 @@ import pandas as pd
 import psutil
 
 from baselines import registry
-from experiments.cases.case import Case
 from ofg import Body, Motion, Pose, Query
 
 from . import ownfile, words
 from .answering import PACES
+from .bins import Bin, choose
 from .config import RunConfig, TimingChoice, load_files
 from .folder import manifest, origin
-from .folder.rows import cases_of
 from .folder.shard import Shard
 from .folder.store import Store
 from .processes.pool import MEMORY, Task, mark, run
 from .progress import stage
 
-SITUATIONS = ("deep", "near", "apart", "hit", "clear")  # see situation_of
-# least number of faces, name
-SIZES = (
-    (0, "to 24"),
-    (25, "25-150"),
-    (151, "151-700"),
-    (701, "over 700"),
-)
-NEAR = 1e-2  # of gap over size: cases closer to contact are timed separately
 LEAST_ROUNDS = 3
 #: share of the machine's memory that the process that times may take. It keeps every prepared case
 #: of a bin, and a MuJoCo model alone reserves 28 MB: 48 cases of six methods are 8 GB, of which
@@ -69,19 +59,6 @@ PROBE = "(noise probe)"
 FLOOR = "(floor)"
 # if the process died: a row of its current method, with the reason in place of the case
 LOST = "(lost)"
-
-
-@dataclass(frozen=True)
-class Bin:
-    """Cases of one question, one range of faces (of the larger body), one situation. methods:
-    label -> ids of the cases it answered.
-    """
-
-    question: str
-    faces: str
-    situation: str
-    cases: list[Case]
-    methods: dict[str, set[str]]
 
 
 def measure(store: Store, config: RunConfig) -> None:
@@ -126,34 +103,6 @@ def _shard(store: Store, config: RunConfig, bin_: Bin) -> Shard:
         timing=config.timing.model_dump(),
         bin=[bin_.question, bin_.faces, bin_.situation, [case.id for case in bin_.cases], methods],
     )
-
-
-def choose(store: Store, config: RunConfig) -> list[Bin]:
-    """The first cases of each bin, spread evenly over its scenarios and levels; the same for
-    every method.
-    """
-    cases, observations = store.read("cases.parquet"), store.read("observations.parquet")
-    objects = {case.id: case for case, _ in cases_of(cases, store.read("bodies.parquet"))}
-    answered = observations[observations.status == "ok"].groupby("case").method.agg(set)
-    labels = [m.label for spec in config.asked for m in registry.make(spec)]
-    cases = cases[cases.label != "uncertain"].assign(
-        faces=lambda c: size_of(c.faces), situation=situation_of
-    )
-    bins = []
-    for (question, faces, situation), rows in cases.groupby(
-        ["question", "faces", "situation"], sort=False, observed=True
-    ):
-        chosen = [
-            objects[i]
-            for i in rows.sort_values(["index", "scenario", "level"]).case[: config.timing.cases]
-        ]
-        methods = {
-            label: {c.id for c in chosen if label in answered.get(c.id, ())} for label in labels
-        }
-        bins.append(
-            Bin(question, faces, situation, chosen, {k: v for k, v in methods.items() if v})
-        )
-    return bins
 
 
 def expected(store: Store, bins: list[Bin], timing: TimingChoice) -> list[float]:
@@ -207,23 +156,6 @@ def rounds_within(once: float, timing: TimingChoice, warmup: int = 0) -> int:
     return min(timing.rounds, max(LEAST_ROUNDS, int(timing.seconds / max(once, 1e-9)))) + (
         warmup if once <= timing.seconds else min(1, warmup)
     )
-
-
-def size_of(faces: pd.Series) -> pd.Series:
-    """The range of faces to which each number belongs."""
-    return pd.cut(
-        faces,
-        [least for least, _ in SIZES] + [np.inf],
-        right=False,
-        labels=[title for _, title in SIZES],
-    ).astype(str)
-
-
-def situation_of(cases: pd.DataFrame) -> pd.Series:
-    """Overlap: "deep", "near" or "apart", by the signed gap over the size. Sweeps: their label."""
-    relative = cases.gap / cases["size"]
-    overlap = np.select([relative < -NEAR, relative > NEAR], ["deep", "apart"], "near")
-    return pd.Series(np.where(cases.question == "overlap", overlap, cases.label), cases.index)
 
 
 def measure_bin(store: Store, config: RunConfig, bin_: Bin, seconds: float) -> list[Times]:

@@ -14,8 +14,8 @@ import pandas as pd
 
 from baselines import registry
 from experiments.cases import families
+from experiments.run import bins, piece_truth, timing
 from experiments.run import config as configuration
-from experiments.run import piece_truth, timing
 from experiments.run.folder import given, record
 from experiments.run.folder.rows import filled
 from experiments.run.folder.store import Store
@@ -219,7 +219,7 @@ def _times(config, frames, found: Findings) -> None:
     cases = (
         frames["cases"]
         .drop_duplicates("case")
-        .assign(situation=timing.situation_of, bin=lambda c: timing.size_of(c.faces))
+        .assign(situation=bins.situation_of, bin=lambda c: bins.size_of(c.faces))
         .set_index("case")
     )
     asked = set(frames["observations"].method)

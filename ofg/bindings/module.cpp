@@ -271,7 +271,7 @@ NB_MODULE(_core, m) {
       "set_isa",
       [](int isa) {
         require(isa >= 0 && isa <= 2, "isa must be 0 (SSE2), 1 (AVX2) or 2 (AVX-512)");
-        return ofg::set_isa(ofg::Isa(isa));
+        return ofg::set_isa(ofg::Isa(isa)) && ofg::set_boxes_isa(ofg::Isa(isa));
       },
       "isa"_a, "0: SSE2, 1: AVX2, 2: AVX-512. False where the machine lacks it.");
   m.def("widest_isa", [] { return int(ofg::widest_isa()); });

@@ -34,15 +34,14 @@ struct Prepared {
   }
 
   static const ofg::verified::Hull& only_piece(nb::handle body) {
-    const auto& pieces = verified::Prepared::hulls_of(body).pieces;
-    given::require(pieces.size() == 1, "a body must be one convex piece");
-    return pieces[0];
+    const ofg::verified::Solid& solid = verified::Prepared::solid_of(body).solid;
+    given::require(solid.is_convex(), "a body must be one convex piece");
+    return solid.pieces[0];
   }
 
   nb::object call() const {
     using ofg::verified::Verdict;
-    const ofg::verified::Posed at(a, b, pose_a, pose_b);
-    const Verdict said = ofg::verified::by_spheres(a, b, at);
+    const Verdict said = ofg::verified::by_spheres(a, b, pose_a, pose_b);
     return said == Verdict::apart ? clear : said == Verdict::meeting ? hit : otherwise();
   }
 };

@@ -31,9 +31,16 @@ inline nb::tuple in_arrays(const std::vector<Impact>& impacts) {
   return nb::make_tuple(returned::in_arrays(answers), all_latest, all_proved);
 }
 
-inline nb::tuple ask_many(const verified::Hulls& a, const verified::Hulls& b, Doubles pa,
-                          Doubles pb, Doubles ma, Doubles mb, int threads) {
+// The convex pieces of a body that is no closed surface.
+inline const ofg::verified::Hulls& pieces_of(const verified::Solid& body) {
+  require(!body.solid.is_closed(), "a body must have convex pieces");
+  return body.solid.pieces;
+}
+
+inline nb::tuple ask_many(const verified::Solid& solid_a, const verified::Solid& solid_b,
+                          Doubles pa, Doubles pb, Doubles ma, Doubles mb, int threads) {
   using namespace given;
+  const auto &a = pieces_of(solid_a), &b = pieces_of(solid_b);
   const std::size_t n = pa.shape(0);
   check_poses(pa, n, "poses_a"), check_poses(pb, n, "poses_b");
   check_motions(ma, n, "motions_a"), check_motions(mb, n, "motions_b");
@@ -44,10 +51,10 @@ inline nb::tuple ask_many(const verified::Hulls& a, const verified::Hulls& b, Do
     nb::gil_scoped_release released;
     returned::in_parts(n, threads, [&](std::size_t from, std::size_t to) {
       for (std::size_t i = from; i < to; ++i)
-        impacts[i] = ofg::verified::sweep(
-            a.pieces, b.pieces, returned::pose_of(pa.data() + pose_columns * i),
-            returned::pose_of(pb.data() + pose_columns * i),
-            motion_of(ma.data() + motion_columns * i), motion_of(mb.data() + motion_columns * i));
+        impacts[i] = ofg::verified::sweep(a, b, returned::pose_of(pa.data() + pose_columns * i),
+                                          returned::pose_of(pb.data() + pose_columns * i),
+                                          motion_of(ma.data() + motion_columns * i),
+                                          motion_of(mb.data() + motion_columns * i));
     });
   }
   return in_arrays(impacts);
@@ -56,15 +63,15 @@ inline nb::tuple ask_many(const verified::Hulls& a, const verified::Hulls& b, Do
 // One query, ready to be asked again and again: what a harness times.
 struct Prepared {
   nb::object keep_a, keep_b;
-  const verified::Hulls &a, &b;
+  const ofg::verified::Hulls &a, &b;
   ofg::Pose pose_a, pose_b;
   ofg::Motion motion_a, motion_b;
 
   Prepared(nb::object oa, nb::object ob, Doubles poses, Doubles motions)
       : keep_a(oa),
         keep_b(ob),
-        a(verified::Prepared::hulls_of(oa)),
-        b(verified::Prepared::hulls_of(ob)) {
+        a(pieces_of(verified::Prepared::solid_of(oa))),
+        b(pieces_of(verified::Prepared::solid_of(ob))) {
     given::check_poses(poses, 2, "poses"), given::check_motions(motions, 2, "motions");
     pose_a = returned::pose_of(poses.data());
     pose_b = returned::pose_of(poses.data() + given::pose_columns);
@@ -73,7 +80,7 @@ struct Prepared {
   }
 
   nb::tuple call() const {
-    const Impact x = ofg::verified::sweep(a.pieces, b.pieces, pose_a, pose_b, motion_a, motion_b);
+    const Impact x = ofg::verified::sweep(a, b, pose_a, pose_b, motion_a, motion_b);
     return nb::make_tuple(x.hit, x.time);
   }
 };

@@ -27,7 +27,7 @@ COMPILER = shutil.which("c++")
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """`lane` and OFG's plugin, compiled without cmake and without any other engine."""
+    """`lane` and OFG's plugins, compiled without cmake and without any other engine."""
     if not COMPILER:
         pytest.skip("no C++ compiler called c++")
     base = tmp_path_factory.getbasetemp()
@@ -45,10 +45,12 @@ def folder(tmp_path_factory):
 def _compile(to):
     headers = native.SOURCE.parents[1] / "ofg" / "include"
     flags = [COMPILER, "-std=c++20", "-O0", "-I", str(native.SOURCE), "-I", str(headers)]
-    main, plugin = str(native.SOURCE / "main.cpp"), str(native.SOURCE / "ofg.cpp")
+    main = str(native.SOURCE / "main.cpp")
     subprocess.run([*flags, main, "-o", str(to / "lane"), "-ldl"], check=True)
-    shared = ["-fPIC", "-shared", "-ffp-contract=off", "-o", str(to / "plugins" / "ofg.so")]
-    subprocess.run([*flags, plugin, *shared], check=True)
+    for plugin in ("ofg", "ofg_solid"):
+        source, made = native.SOURCE / f"{plugin}.cpp", to / "plugins" / f"{plugin}.so"
+        shared = ["-fPIC", "-shared", "-ffp-contract=off", "-o", str(made)]
+        subprocess.run([*flags, str(source), *shared], check=True)
 
 
 def queries() -> list[Query]:
@@ -113,7 +115,15 @@ def test_an_engine_stands_in_the_cells_that_it_knows(folder):
 
 def test_a_mesh_is_asked_of_those_that_take_it_as_it_is(folder):
     found = answers(native.run([overlap("mesh", (7, 1, 2))], rounds=1, warmup=0, folder=folder))
-    assert len(found) and found.engine.str.contains("repairs=all").all()
+    assert len(found) and found.engine.str.contains("repairs=all|verified").all()
+
+
+def test_a_union_is_asked_by_its_pieces(folder):
+    asked = [overlap("union", at) for at in ((9, 1, 2), (0.9, 0.7, 0.5))]
+    found = answers(native.run(asked, rounds=1, warmup=0, folder=folder))
+    assert set(found.engine) == {"ofg-verified"}
+    for query, said in zip(asked, found.sort_values("id").hit):
+        assert bool(said) == registry.make("ofg-verified")[0].prepare(query)().hit
 
 
 def test_the_unit_of_a_method_changes_no_answer_and_no_time(folder, monkeypatch):
@@ -147,8 +157,6 @@ def test_a_spoilt_case_file_is_refused(folder, tmp_path):
 
 
 def test_what_the_lane_does_not_take(folder, tmp_path):
-    with pytest.raises(ValueError, match="union"):
-        native.write(tmp_path / "cases", [overlap("union", (3, 0, 0))])
     with pytest.raises(ValueError, match="blocks of 3"):
         native.write(tmp_path / "cases", queries(), block=3)
     with pytest.raises(native.NativeError, match="ofg-bench native --build"):

@@ -67,3 +67,15 @@ def first_contact() -> float:
 @pytest.mark.skipif(CMAKE is None, reason="cmake is not installed: pip install cmake")
 def test_no_query_allocates(tmp_path):
     assert build_and_run(ROOT / "tests/ofg/native", "allocations", tmp_path).strip() == "0"
+
+
+@pytest.mark.skipif(CMAKE is None, reason="cmake is not installed: pip install cmake")
+def test_twice_the_digits_are_off_by_less_than_is_said(tmp_path):
+    said = build_and_run(ROOT / "tests/ofg/native", "twice", tmp_path)
+    assert said.startswith("sum 0.") and said.endswith("of the bound\n")
+
+
+@pytest.mark.skipif(CMAKE is None, reason="cmake is not installed: pip install cmake")
+def test_exact_numbers_of_any_length_keep_identities(tmp_path):
+    said = build_and_run(ROOT / "tests/ofg/native", "numbers", tmp_path)
+    assert said == "15000 shorter, 5000 longer\n"

@@ -15,8 +15,7 @@ from hypothesis import strategies as st
 
 import ofg
 from ofg import Body, BodyError, PairCache, Pose, Query, _core
-from ofg.verification import hulls as core_hulls
-from ofg.verification import prepare_verified
+from ofg.verification import prepare_verified, solid_of
 
 from .conftest import CUBE, rows_of_poses
 
@@ -179,10 +178,11 @@ def test_a_body_inside_another_and_at_its_place():
     assert ofg.verified(ball, ball)
 
 
-def test_flat_bodies_and_meshes_are_refused(cube):
+def test_flat_bodies_and_open_surfaces_are_refused(cube):
     flat = Body.unchecked("convex", CUBE * [1, 1, 0], cube.faces, (), "flat")
-    mesh = Body.mesh(cube.vertices, cube.faces, "a mesh")
-    for wrong in (flat, mesh):
+    sheet = Body.unchecked("mesh", CUBE * [1, 1, 0], cube.faces, (), "a flat surface")
+    unclosed = Body.unchecked("mesh", CUBE, cube.faces[1:], (), "an open surface")
+    for wrong in (flat, sheet, unclosed):
         with pytest.raises(BodyError, match=wrong.name):
             ofg.verified(wrong, cube)
         with pytest.raises(BodyError, match=wrong.name):
@@ -270,9 +270,7 @@ def test_instruction_sets_threads_and_the_missing_selection_give_equal_hits(hull
             for isa in range(widest + 1):
                 assert _core.set_isa(isa)
                 hits.append(asked(a, b, pa, pb))
-                hits.append(
-                    _core.verified_many(*map(core_hulls, (a, b)), pa, pb, None, False, 1)[0]
-                )
+                hits.append(_core.verified_many(*map(solid_of, (a, b)), pa, pb, None, False, 1)[0])
             hits.append(asked(a, b, pa, pb, threads=3))
             assert all(np.array_equal(h, hits[0]) for h in hits) and 0 < hits[0].sum() < n
     finally:

@@ -15,7 +15,8 @@ COMPILER = shutil.which("g++") or shutil.which("c++")
 QUERIES = 40_000  # most mutants end within a hundred
 
 PORTAL, POSE, MAIN = "verified_portal.hpp", "verified_pose.hpp", "verified.hpp"
-SINGLE, HULL = "simd/opposing_body.hpp", "verified_hull.hpp"
+SINGLE, HULL, FINE = "simd/opposing_body.hpp", "verified_hull.hpp", "verified_fine.hpp"
+EXACT = "verified_exact.hpp"
 MUTANTS = {
     "none": None,
     "no full support": (SINGLE, "if (!q.complete) {", "if (false) {"),
@@ -39,6 +40,21 @@ MUTANTS = {
         "!(sure > doubt)",
         "!(sure + 0 * doubt > 0)",
     ),
+    "no margin of a plane in twice the digits": (
+        FINE,
+        "const double size = 1.001 * at.slack * wide(n);",
+        "const double size = 0;",
+    ),
+    "no margin of a portal in twice the digits": (
+        FINE,
+        "if (!(std::abs(height) > 1.001 * doubt)",
+        "if (!(std::abs(height) > 0 * doubt)",
+    ),
+    "doubles alone rank near-tied vertices in twice the digits": (
+        FINE,
+        "- 128 * unit_roundoff * hull.radius * length(axis);",
+        ";",
+    ),
     "a portal without area": (
         PORTAL,
         "if (!still_meeting(at, proof)) return false;",
@@ -51,13 +67,23 @@ MUTANTS = {
     ),
     "no exact fallback": (
         MAIN,
-        "meets_exactly(a, b, pa, pb, proof.axis) ? Verdict::meeting : Verdict::apart",
+        "meets_exactly(a, b, pa, pb, ended, proof.axis) ? Verdict::meeting : Verdict::apart",
         "Verdict::apart",
     ),
     "no exact fallback, the other way": (
         MAIN,
-        "meets_exactly(a, b, pa, pb, proof.axis) ? Verdict::meeting : Verdict::apart",
+        "meets_exactly(a, b, pa, pb, ended, proof.axis) ? Verdict::meeting : Verdict::apart",
         "Verdict::meeting",
+    ),
+    "doubles alone rank near-tied vertices in the exact step": (
+        EXACT,
+        "- 128 * unit_roundoff * hull_.radius * length(axis);",
+        ";",
+    ),
+    "any plane keeps apart in the exact step": (
+        EXACT,
+        "return dot(n, s).sign() <= 0;",
+        "return dot(n, s).sign() <= 1;",
     ),
     "an inscribed ball of an open surface": (
         HULL,

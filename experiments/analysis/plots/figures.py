@@ -22,8 +22,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from baselines import registry
 from experiments.analysis import costs, metrics, outcome, views
+from experiments.run.bins import SITUATIONS, SIZES, size_of
 from experiments.run.folder.store import Store
-from experiments.run.timing import SITUATIONS, SIZES, size_of
 
 # The palette of Okabe and Ito and three colours of Paul Tol, one per engine, which remain distinct
 # under the common colour vision deficiencies; markers repeat the distinction in grey print.
@@ -39,7 +39,7 @@ COLOURS = (
     "#882255",
     "#DDCC77",
 )
-MARKERS = "osD^vP*Xh<>p"
+MARKERS = "osD^vP*Xh<>pd8H"
 GRAIN = 50.0  # ns: shorter net times are below the clock's resolution and are drawn at this value
 LEAST = 20  # a panel needs at least so many certified cases
 

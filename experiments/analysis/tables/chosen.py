@@ -15,9 +15,9 @@ import pandas as pd
 from experiments.analysis import costs, metrics, views
 from experiments.cases import families
 from experiments.run import piece_truth
+from experiments.run.bins import SITUATIONS, SIZES, size_of
 from experiments.run.config import ConfigError, RunConfig, TableChoice, closest
 from experiments.run.folder.store import Store
-from experiments.run.timing import SITUATIONS, SIZES, size_of
 from ofg import QUESTIONS
 
 from .cost import IN_NOISE, microseconds, reference_of, state_of

@@ -12,9 +12,9 @@ import pandas as pd
 
 from baselines import registry
 from experiments.analysis import costs
+from experiments.run.bins import SIZES
 from experiments.run.config import RunConfig
 from experiments.run.folder.store import Store
-from experiments.run.timing import SIZES
 
 from .table import Table
 

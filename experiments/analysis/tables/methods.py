@@ -27,6 +27,12 @@ def _tolerance(name: str, found: pd.DataFrame) -> str:
     return " or ".join(dict.fromkeys(str(m.tolerance) for m in made)) or "unknown"
 
 
+def _bodies(bodies: str, swept: str) -> str:
+    """The initials of the kinds of bodies: "c m u", or "c m u: c u" where sweeps take fewer."""
+    both = [" ".join(kind[0] for kind in kinds.split()) for kinds in (bodies, swept)]
+    return both[0] if bodies == swept else ": ".join(both)
+
+
 def method_table(store: Store, found: pd.DataFrame) -> Table:
     """The properties that each method of the run declares, with the engine version that ran."""
     versions, known, rows = store.facts.get("versions", {}), registry.methods(), []
@@ -40,6 +46,7 @@ def method_table(store: Store, found: pd.DataFrame) -> Table:
                     "engine": "unknown",
                     "answers": "",
                     "bodies": "",
+                    "swept": "",
                     "tests": "unknown",
                     "tolerance": "unknown",
                     "guarantee": UNKNOWN,
@@ -53,6 +60,7 @@ def method_table(store: Store, found: pd.DataFrame) -> Table:
                 "engine": f"{m.engine} {versions.get(m.engine) or 'absent'}",
                 "answers": " ".join(q for q in QUESTIONS if q in m.questions),
                 "bodies": " ".join(sorted(m.bodies)),
+                "swept": " ".join(sorted(m.bodies if m.swept is None else m.swept)),
                 "tests": "solid" if m.solid else "surface",
                 "tolerance": _tolerance(name, found),
                 "guarantee": m.guarantee,
@@ -61,14 +69,14 @@ def method_table(store: Store, found: pd.DataFrame) -> Table:
     frame = pd.DataFrame(rows)
     text = frame.assign(
         answers=[" ".join(q[0] for q in a.split()) for a in frame.answers],
-        bodies=[" ".join(k[0] for k in b.split()) for b in frame.bodies],
-    )
+        bodies=[_bodies(b, s) for b, s in zip(frame.bodies, frame.swept)],
+    ).drop(columns="swept")
     return Table(
         "methods",
         "Methods.",
         "Properties declared by each method. Answers: overlap, translation, motion. Bodies: convex,"
-        " mesh, union. A method does not appear in the tables of questions that it does not"
-        " answer.",
+        " mesh, union; those of sweeps behind a colon, if they differ. A method does not appear in"
+        " the tables of questions that it does not answer.",
         frame,
         text.astype(str),
         optional=("guarantee", "engine"),

@@ -30,6 +30,7 @@ Rounds = Annotated[int, typer.Option(min=3, help="timed rounds")]
 Seed = Annotated[int, typer.Option(min=0, help="seed of bodies and poses; not used with RUN")]
 Core = Annotated[int, typer.Option(min=-1, help="processor core to run on; -1 for any")]
 Python = Annotated[bool, typer.Option("--python", help="also time the methods from Python")]
+Concave = Annotated[bool, typer.Option("--concave", help="time closed meshes and unions instead")]
 Build = Annotated[bool, typer.Option("--build", help="only build; time nothing")]
 Out = Annotated[
     Path | None,
@@ -47,6 +48,7 @@ def native(
     seed: Seed = 1,
     core: Core = 0,
     python: Python = False,
+    concave: Concave = False,
     out: Out = None,
     build: Build = False,
 ) -> None:
@@ -54,10 +56,12 @@ def native(
 
     With RUN, the cases are its certified cases of convex bodies and meshes, and the table is added
     to its report. Without RUN, the cases are pairs of 12 to 5,120 faces, apart, overlapping and
-    moving, with certified labels. With OFG_NATIVE=required, an engine that cannot be built is an
+    moving, with certified labels; with --concave, pairs of closed meshes of 80 to 20,480 faces and
+    of unions of 2 to 64 pieces. With OFG_NATIVE=required, an engine that cannot be built is an
     error.
     """
     from baselines.native import NativeError
+    from experiments.studies.native import concave as concave_bodies
     from experiments.studies.native.study import head, study
 
     try:
@@ -65,6 +69,10 @@ def native(
             print("\n".join(head()))
             return
         pinned = None if core < 0 else core
+        if concave:
+            head()
+            concave_bodies.study(cases, rounds, seed, pinned, out)
+            return
         with reading(run) if run else nullcontext():
             if run:
                 opened(run, False)  # before anything is built

@@ -61,8 +61,8 @@ class Runs:
         return self._once(("known", run), lambda: ends.known(Store(self.folder / run)))
 
     def file(self, name: str) -> pd.DataFrame:
-        """A frame in the folder: sizes/sizes.parquet, native/rows.parquet or
-        stepping/stepping.parquet.
+        """A frame in the folder: sizes/sizes.parquet, native/rows.parquet, native/ratios.parquet
+        or stepping/stepping.parquet.
         """
         read = pd.read_csv if name.endswith(".csv") else pd.read_parquet
         return self._once(("file", name), lambda: read(self.folder / name))

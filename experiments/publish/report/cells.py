@@ -16,7 +16,7 @@ import pandas as pd
 from experiments.analysis.outcome import JUDGED
 from experiments.analysis.tables.table import unmarked
 from experiments.run import piece_truth
-from experiments.run.timing import SIZES
+from experiments.run.bins import SIZES
 from ofg import QUESTIONS
 
 #: column of a table -> kind of the rows that it counts

@@ -24,10 +24,10 @@ from experiments.analysis import costs, nesting, outcome, tables, views
 from experiments.analysis.tables.methods import UNKNOWN
 from experiments.cases import families
 from experiments.run import piece_truth
+from experiments.run.bins import SIZES, situation_of, size_of
 from experiments.run.folder.rows import MOTION, body_row, cases_of, filled
 from experiments.run.folder.store import Store
 from experiments.run.progress import stage
-from experiments.run.timing import SIZES, situation_of, size_of
 
 from . import glossary, lanes
 from .gallery import gallery

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from experiments.run.bins import situation_of, size_of
 from experiments.run.folder.rows import cases_of
 from experiments.run.folder.store import Store
-from experiments.run.timing import situation_of, size_of
 
 from .cell import Cell, kind
 

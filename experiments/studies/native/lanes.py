@@ -14,17 +14,24 @@ import numpy as np
 import pandas as pd
 
 from baselines import registry
+from baselines.label import name_of
 from experiments.cases.case import Case
+from experiments.run.bins import Bin
 from experiments.run.config import TimingChoice
-from experiments.run.timing import COLUMNS, FLOOR, Bin, time_bin
+from experiments.run.timing import COLUMNS, FLOOR, time_bin
 
 from . import twins
 from .cell import Cell
+from .classes import BEHIND
 from .measuring import CELL
 
 LIMIT = 0.3  #: of the native time: a larger difference is explained
 
-WHY = {  # library: why its net Python time is not its native time
+TABLES = (
+    "from Python equal bodies share their tables, where every native pair has its own; its floor"
+    " holds the bounding spheres' test"
+)
+WHY = {  # library, or method: why its net Python time is not its native time
     "bullet": (
         "pybullet makes two collision objects, a contact test and a list of points for each"
         " call, more than its floor holds; the native lane asks the GJK pair detector alone."
@@ -49,6 +56,8 @@ WHY = {  # library: why its net Python time is not its native time
         " lane shares one; its floor is nothing but the bounding spheres' test. From Python it"
         " takes the widest instruction set of the machine, and so does the native row"
     ),
+    "ofg-verified": TABLES,
+    "ofg-mpr": TABLES,
     "parry": (
         "its floor, a call on tetrahedra, holds part of the test itself, which is most of it"
         " on cheap pairs"
@@ -136,11 +145,16 @@ def _hits(label: str, cases: list[Case]) -> dict[str, bool]:
     return found
 
 
+def _key(method: str) -> str:
+    name = name_of(method).removeprefix(BEHIND)
+    return name if name in WHY else name.split("-")[0]
+
+
 def explained(table: pd.DataFrame) -> list[str]:
-    """A line for each library whose lanes differ by more than LIMIT anywhere."""
+    """A line for each key of WHY, or other library, whose lanes differ by more than LIMIT."""
     far = table[(table.ratio - 1).abs() > LIMIT]
     lines = []
-    for engine, part in far.groupby(far.method.str.split("[- ]").str[0]):
+    for engine, part in far.groupby(far.method.map(_key)):
         why = WHY.get(engine, "not explained yet")
         span = f"{part.ratio.min():.2f} to {part.ratio.max():.2f} in {len(part)} cells"
         lines.append(f"- {engine} ({span}): {why}.")

@@ -17,13 +17,15 @@ PROBE = "(noise probe)"  #: the engine of `lane` that does the same arithmetic e
 #: what tells a row of a cell apart from all others
 CONTESTANT = ["engine", "isa", "build", "mode"]
 CELL = ["bodies", "faces", "question", "situation"]
+#: nanoseconds to build all bodies and cases of a cell; how many bodies; their bytes, -1 if unknown
+BUILT = ["build_ns", "built", "bytes"]
 
 
 def measure(cell: Cell, rounds: int, warmup: int, core: int | None) -> tuple:
     """(times, answers, noise) of a cell.
 
-    times: CELL, CONTESTANT, block, ns (per query: median over rounds, less the floor's), build_ns
-    (of all its bodies and cases). answers: CELL, CONTESTANT, case, hit, time, label. noise: how far
+    times: CELL, CONTESTANT, block, ns (per query: median over rounds, less the floor's), BUILT.
+    answers: CELL, CONTESTANT, case, hit, time, label. noise: how far
     the 90th percentile of the probe's rounds lies above their median.
     """
     taken = native.run(cell.queries, cell.modes, cell.block, rounds, warmup, core)
@@ -39,7 +41,7 @@ def _times(taken: native.Taken, cell: Cell) -> pd.DataFrame:
     rows["ns"] = rows.filter(like="round").median(axis=1) / rows.queries
     floor = rows[rows.engine == native.FLOOR].groupby("mode").ns.median()
     rows["ns"] = (rows.ns - rows["mode"].map(floor)).clip(lower=0)
-    return rows[_real(rows)][[*CONTESTANT, "block", "ns", "build_ns"]].reset_index(drop=True)
+    return rows[_real(rows)][[*CONTESTANT, "block", "ns", *BUILT]].reset_index(drop=True)
 
 
 def _answers(taken: native.Taken, cell: Cell) -> pd.DataFrame:

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import pandas as pd
 
-from .classes import CLASSES, LIBRARIES, V3, library
+from . import preparation, targets
+from .classes import CLASSES, CONTROL, LIBRARIES, V3, library
 from .measuring import CELL
+from .ratios import CACHE, MPR, SCREENED, VERIFIED
 from .summary import OURS, steps
 
 REPAIRED = "ofg k=8 repairs=all"
-SCREENED = "ofg k=8 screen=True"
 ALIKE = [*CELL, "mode"]
 ORDER = {
     "mode": ("cold", "warm", "batch", "coherent"),
@@ -21,16 +22,25 @@ ORDER = {
 }
 
 
-def page(rows: pd.DataFrame, facts: list[str], parts: bool = True) -> str:
+def page(
+    rows: pd.DataFrame,
+    facts: list[str],
+    ratios: pd.DataFrame,
+    growths: pd.DataFrame,
+    parts: bool = True,
+) -> str:
     """Markdown. rows: as `summary` gives them. facts: what was built and measured.
 
-    parts: with tables of every contestant and of OFG's steps.
+    ratios, growths: as ratios.py gives them. parts: with tables of every contestant and of OFG's
+    steps.
     """
     rows = ordered(rows)
-    lines = ["# Native study", "", *facts, builds(rows), "", *LEGEND]
+    lines = ["# Native study", "", *facts, builds(rows), "", *_targets(ratios, growths), *LEGEND]
     for name in CLASSES:
         if (rows["class"] == name).any():
-            lines += ["", f"## {title(name)}", "", markdown(overview(class_of(rows, name)))]
+            shown = overview(class_of(rows, name), ratios[ratios["class"] == name])
+            lines += ["", f"## {title(name)}", "", markdown(shown)]
+    lines += _preparation(rows, ratios)
     if parts:
         lines += [*details(rows), *_steps(rows)]
     return "\n".join(lines) + "\n"
@@ -43,13 +53,18 @@ LEGEND = [
         " of queries. Each cell shows the fastest configuration of a library, whether or not its"
         " answers are right; brackets give its wrong answers among the certified cases. Ratio:"
         f" {OURS} over the fastest library ({SCREENED} in batch cells), paired by block, with its"
-        " 95 % bootstrap interval."
+        " 95 % bootstrap interval. Engine / verified: how many times the time of"
+        f" {VERIFIED} the fastest engine takes that answers all cases of the cell and none wrongly;"
+        f" mpr / verified: likewise {MPR}, the same method without opposing faces. {CONTROL}: the"
+        " fastest engine without an error behind the bounding and inscribed spheres of"
+        f" {VERIFIED}, a control."
     ),
     "",
     (
         "cold: each pair once, with its own bodies. warm: many poses of one pair, one call each."
         " batch: the same poses in one call; no engine offers this, so * marks the time of its"
-        " single calls. coherent: small steps along a trajectory, with each engine's cache as well."
+        " single calls. coherent: small steps along a trajectory, with each engine's cache as well;"
+        f" {VERIFIED} and {MPR} keep what they proved."
     ),
 ]
 
@@ -88,17 +103,29 @@ def title(name: str) -> str:
     return f"OFG with {CLASSES[name]}, engines in {theirs} builds (or their only build)"
 
 
-def overview(rows: pd.DataFrame) -> pd.DataFrame:
-    """A row per cell and mode: OFG as written, with its screen and repaired; each library."""
+def overview(rows: pd.DataFrame, ratios: pd.DataFrame) -> pd.DataFrame:
+    """A row per cell and mode: OFG verified and as written, screened and repaired; each library.
+
+    ratios: of the same class.
+    """
     made = []
     for key, cell in with_single_calls(rows).groupby(ALIKE, sort=False, observed=True):
         row = dict(zip(ALIKE, key))
+        kept = CACHE if row["mode"] == "coherent" else ""
+        for name in (VERIFIED, MPR):
+            row[name] = shown(cell[cell.engine == name + kept], named=False)
+        sure = cell.misses + cell.false_alarms == 0
+        row[CONTROL] = shown(cell[sure & (cell.engine.map(library) == CONTROL)])
         for name in (OURS, SCREENED, REPAIRED):
             row[name] = shown(cell[cell.engine == name], named=False)
         for name in LIBRARIES.values():
             row[name] = shown(cell[cell.engine.map(library) == name])
         own = cell[cell.engine == (SCREENED if row["mode"] == "batch" else OURS)]
         row["ratio"] = next((quotient(r) for _, r in own.iterrows()), "-")
+        here = ratios[(ratios[ALIKE].astype(str) == [*map(str, key)]).all(axis=1)]
+        for against in ("engine", "mpr"):
+            some = here[here.against == against]
+            row[f"{against} / verified"] = next((quotient(r) for _, r in some.iterrows()), "-")
         made.append(row)
     return pd.DataFrame(made)
 
@@ -109,6 +136,26 @@ def with_single_calls(rows: pd.DataFrame) -> pd.DataFrame:
     single = rows[(rows["mode"] == "warm") & (rows.engine.map(library) != "OFG")]
     single = single.merge(cells, on=CELL).assign(mode="batch", single=True)
     return ordered(pd.concat([rows.assign(single=False), single], ignore_index=True))
+
+
+def _targets(ratios: pd.DataFrame, growths: pd.DataFrame) -> list[str]:
+    """What verified OFG was to reach, where any cell of it was measured."""
+    made = targets.table(ratios, growths)
+    if (made.reached == "-").all():
+        return []
+    text = (
+        f"Of {VERIFIED}, set before it was measured. Reached: the cells with a ratio as asked, of"
+        " those measured. By the interval: the cells whose whole 95 % interval is as asked. In"
+        " batches it is compared with single calls of the engines."
+    )
+    return ["## Targets", "", text, "", markdown(made), ""]
+
+
+def _preparation(rows: pd.DataFrame, ratios: pd.DataFrame) -> list[str]:
+    made = preparation.table(rows, ratios)
+    if made.empty:
+        return []
+    return ["", "## Preparing bodies", "", preparation.LEGEND, "", markdown(made)]
 
 
 def shown(cell: pd.DataFrame, named: bool = True) -> str:

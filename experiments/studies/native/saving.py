@@ -2,7 +2,9 @@
 #
 # SPDX-License-Identifier: MIT
 
-"""The files of a native study: rows.parquet, native.md, made.json."""
+"""The files of a native study: rows.parquet, ratios.parquet, growths.parquet, native.md and
+made.json.
+"""
 
 from __future__ import annotations
 
@@ -19,10 +21,19 @@ from .measuring import CELL, CONTESTANT
 from .summary import COUNTS, RATIO
 
 
-def save(folder: Path, rows: pd.DataFrame, page: str, made: dict) -> None:
-    """Write all three. rows: as `small` gives them, from which the page was made."""
+def save(
+    folder: Path,
+    rows: pd.DataFrame,
+    ratios: pd.DataFrame,
+    growths: pd.DataFrame,
+    page: str,
+    made: dict,
+) -> None:
+    """Write all. rows: as `small` gives them; ratios, growths: from which the page was made."""
     store = Store(folder)
     store.write(rows, "rows.parquet")
+    store.write(ratios, "ratios.parquet")
+    store.write(growths, "growths.parquet")
     store.write_text(page, "native.md")
     store.write_text(json.dumps(made, indent=1) + "\n", "made.json")
 
@@ -30,10 +41,15 @@ def save(folder: Path, rows: pd.DataFrame, page: str, made: dict) -> None:
 def small(rows: pd.DataFrame) -> pd.DataFrame:
     """The same with each word stored once; times to four digits, quotients to three."""
     words = {name: rows[name].astype("category") for name in ("class", "over", *CELL, *CONTESTANT)}
-    digits = {"ns": 4, **dict.fromkeys(RATIO, 3)}
+    digits = {"ns": 4, "build_ns": 4, "bytes": 4, **dict.fromkeys(RATIO, 3)}
     numbers = {name: rounded(rows[name], n).astype("float32") for name, n in digits.items()}
-    counts = {name: rows[name].astype("Int32") for name in ("blocks", *COUNTS)}
-    return rows.drop(columns="build_ns").assign(**words, **numbers, **counts)
+    counts = {name: rows[name].astype("Int32") for name in ("blocks", "built", *COUNTS)}
+    return rows.assign(**words, **numbers, **counts)
+
+
+def few_digits(ratios: pd.DataFrame) -> pd.DataFrame:
+    """Ratios to three digits."""
+    return ratios.assign(**{name: rounded(ratios[name].astype(float), 3) for name in RATIO})
 
 
 def rounded(values: pd.Series, digits: int) -> pd.Series:

@@ -17,10 +17,11 @@ from experiments.run.folder import manifest
 from experiments.run.folder.store import Store
 from experiments.run.progress import stage
 
-from . import certified, lanes, saving, synthetic, twins
+from . import certified, further, lanes, saving, synthetic, twins
 from .cell import Cell
 from .measuring import measure
 from .page import markdown, page
+from .ratios import growths, ratios
 from .summary import summary
 
 
@@ -40,7 +41,8 @@ def study(
     """
     built = head()
     if run is None:
-        cells = list(synthetic.cells(cases, poses // 32 * 32, seed))
+        poses = poses // 32 * 32
+        cells = [*synthetic.cells(cases, poses, seed), *further.cells(poses, seed)]
         asked = f"Hulls, cubes and icospheres by size, labels certified, seed {seed}."
     else:
         cells, left = list(certified.cells(Store(run), cases)), certified.left_out(Store(run))
@@ -51,13 +53,14 @@ def study(
     made = saving.facts(asked=asked, rounds=rounds)
     times, answers, both, noise = _measured(cells, rounds, core, python)
     rows = saving.small(summary(times, answers))
+    found = saving.few_digits(ratios(times, answers)), growths(times)
     facts = [asked, f"{rounds} rounds.", *built, _noise(noise)]
     facts += _against(Store(run), rows, answers) if run else []
     facts = [line for fact in facts for line in (fact, "")]
-    print(page(rows, facts, parts=False) + _both(both))
+    print(page(rows, facts, *found, parts=False) + _both(both))
     if out:
         made |= {"noise": round(float(np.nanmax(noise)), 4), "finished": manifest.now()}
-        saving.save(out, rows, page(rows, facts) + _both(both), made)
+        saving.save(out, rows, *found, page(rows, facts, *found) + _both(both), made)
 
 
 def _measured(cells: list[Cell], rounds: int, core: int | None, python: bool) -> tuple:

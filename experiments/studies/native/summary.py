@@ -10,8 +10,8 @@ import numpy as np
 import pandas as pd
 from scipy.stats import bootstrap
 
-from .classes import CLASSES, library, standing
-from .measuring import CELL, CONTESTANT
+from .classes import CLASSES, is_library, library, standing
+from .measuring import BUILT, CELL, CONTESTANT
 
 OURS = "ofg k=8"  #: what engines are put over, call by call, in the instruction set of the class
 COUNTS = ("misses", "hits", "false_alarms", "clears")
@@ -19,7 +19,7 @@ RATIO = ("ratio", "low", "high")
 
 
 def summary(times: pd.DataFrame, answers: pd.DataFrame) -> pd.DataFrame:
-    """class, CELL, CONTESTANT, ns, over, RATIO, blocks, build_ns, COUNTS.
+    """class, CELL, CONTESTANT, ns, over, RATIO, blocks, BUILT, COUNTS.
 
     ns: per query, median over blocks. ratio: an engine's time over that of OURS, and OFG's over
     that of the engine which took least in the cell; block by block, the median and its 95 %
@@ -40,7 +40,7 @@ def summary(times: pd.DataFrame, answers: pd.DataFrame) -> pd.DataFrame:
 
 def _rows(rows: pd.DataFrame) -> list[dict]:
     single = rows[rows["mode"] != "batch"].set_index("block")
-    ours, engines = single[single.engine == OURS], single[single.engine.map(library) != "OFG"]
+    ours, engines = single[single.engine == OURS], single[single.engine.map(is_library)]
     medians = engines.groupby("engine").ns.median()
     quickest = engines[engines.engine == medians.idxmin()] if len(medians) else engines
     made = []
@@ -53,7 +53,7 @@ def _rows(rows: pd.DataFrame) -> list[dict]:
                 "over": base.engine.iloc[0] if len(base) else "",
                 **interval(own.set_index("block").ns / base.ns),
                 "blocks": len(own),
-                "build_ns": own.build_ns.iloc[0],
+                **own[BUILT].iloc[0],
             }
         )
     return made

@@ -98,20 +98,29 @@ def warm(poses: int, seed: int) -> Iterator[Cell]:
     rng, deep = np.random.default_rng(seed), np.random.default_rng([seed, 1])
     for name, (a, b) in bodies(rng).items():
         n = poses if len(a.faces) < LARGE else poses // 4
-        for situation, (low, high) in DISTANCES.items():
-            placed = _poses(deep if situation == "deep" else rng, a, b, low, high, n)
-            queries = [
-                Query("overlap", a, b, Pose(p[:4], p[4:7]), Pose(p[7:11], p[11:])) for p in placed
-            ]
-            shape, faces = name.split()
-            yield _cell(shape, int(faces), situation, ("warm", "batch"), queries, _block(n))
+        for situation, distances in DISTANCES.items():
+            stream = deep if situation == "deep" else rng
+            yield posed(stream, name, a, b, situation, distances, n, _meet)
 
 
-def _poses(rng, a: Body, b: Body, low: float, high: float, n: int) -> np.ndarray:
+def posed(rng, name: str, a: Body, b: Body, situation: str, distances, n: int, meet) -> Cell:
+    """The cell of n poses of a pair at distances within two bounds. meet: as _poses."""
+    placed = _poses(rng, a, b, *distances, n, meet)
+    queries = [Query("overlap", a, b, Pose(p[:4], p[4:7]), Pose(p[7:11], p[11:])) for p in placed]
+    shape, faces = name.split()
+    return _cell(shape, int(faces), situation, ("warm", "batch"), queries, _block(n))
+
+
+def _meet(a: Body, b: Body, poses_a: np.ndarray, poses_b: np.ndarray) -> np.ndarray:
+    """Which of the pairs meet, by OFG in full."""
+    return ofg.discrete_many(a, b, poses_a, poses_b, adaptive_k=True, containment=True).hit
+
+
+def _poses(rng, a: Body, b: Body, low: float, high: float, n: int, meet) -> np.ndarray:
     """(n, 14): random orientations and directions, B at a distance along the direction.
 
-    Contact along the direction is found by bisection with OFG in full: it places, and judges
-    nothing.
+    meet(a, b, poses_a, poses_b): which pairs meet. By it contact along the direction is found by
+    bisection: it places, and judges nothing.
     """
     pa, pb = (np.column_stack([rng.normal(size=(n, 4)), np.zeros((n, 3))]) for _ in range(2))
     d = rng.normal(size=(n, 3))
@@ -120,7 +129,7 @@ def _poses(rng, a: Body, b: Body, low: float, high: float, n: int) -> np.ndarray
     for _ in range(40):
         middle = (near + far) / 2
         pb[:, 4:] = d * middle[:, None]
-        hit = ofg.discrete_many(a, b, pa, pb, adaptive_k=True, containment=True).hit
+        hit = meet(a, b, pa, pb)
         near, far = np.where(hit, middle, near), np.where(hit, far, middle)
     gap = np.exp(rng.uniform(np.log(abs(low)), np.log(abs(high)), n)) * np.sign(low)
     pb[:, 4:] = d * (far + gap)[:, None]

@@ -75,6 +75,7 @@ CONTESTANTS = (
         for spec in (
             "ofg k=8",
             "ofg k=8 repairs=all",
+            "ofg-verified",
             "ofg-verified-substeps n=1",
             "ofg-verified-substeps n=16",
             "fcl-convex-substeps n=1",

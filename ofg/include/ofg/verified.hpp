@@ -4,10 +4,11 @@
 
 // Verified Opposing Face Geometry: do the interiors of two convex bodies meet? The answer is
 // proved, never guessed. Look only at what opposes, verify against the whole body, and look at more
-// where that objects; what doubles cannot prove is decided exactly.
+// where that objects; what doubles cannot prove is decided in twice their digits, or exactly.
 #pragma once
 #include "screen.hpp"
 #include "verified_exact.hpp"
+#include "verified_fine.hpp"
 #include "verified_spheres.hpp"
 
 namespace ofg::verified {
@@ -25,6 +26,7 @@ struct Parts {
   bool singles = true;    // single precision before double
   bool selection = true;  // the opposing vertices before the whole bodies
   bool doubles = true;    // double precision before exact arithmetic
+  bool twice = true;      // and after it twice the digits
 };
 
 namespace detail {
@@ -115,6 +117,26 @@ inline bool recalled(const Hull& a, const Hull& b, const Posed& at, const Cache&
   return true;
 }
 
+// In doubles from several starts, and where these end at a portal with the origin on it, as far as
+// doubles can tell, in twice the digits.
+inline void closed_in(const Hull& a, const Hull& b, const Pose& pa, const Pose& pb, const Posed& at,
+                      const Parts& parts, Counts& counts, Proof& proof, Portal& ended) {
+  const int starts = a.inner + b.inner > 0 ? most_starts : 1;
+  for (int i = 0; i < starts && proof.verdict == Verdict::unsure && !ended.known; ++i) {
+    Search search{a, b, at, counts, proof};
+    search.run(i);
+    if (proof.verdict != Verdict::unsure || !search.closed || !parts.twice) continue;
+    const FinePose fine(a, b, pa, pb, at);
+    FineSearch{a, b, fine, counts, proof, ended}.run();
+  }
+}
+
+// Whether spheres settle it, and then the answer.
+inline bool settled(Verdict said, Answer& answer) {
+  if (said == Verdict::meeting) answer.hit = true, answer.found = Found::inside;
+  return said != Verdict::unsure;
+}
+
 inline void name(const Hull& a, const Hull& b, const Posed& at, const Proof& proof,
                  Answer& answer) {
   answer.hit = proof.verdict == Verdict::meeting;
@@ -137,31 +159,27 @@ inline Answer overlap(const Hull& a, const Hull& b, const Pose& pa, const Pose& 
                       Cache* cache = nullptr, const Parts& parts = {}) {
   Answer answer;
   answer.counts.steps = 1;
-  const Posed at(a, b, pa, pb);
+  const Frames frames(a, b, pa, pb);
+  answer.counts.spheres = parts.spheres;
+  if (parts.spheres && detail::settled(by_spheres(a, b, frames), answer)) return answer;
+  const Centres centres(a, b, pa, pb, frames);
+  if (parts.spheres && detail::settled(by_spheres(a, b, centres), answer)) return answer;
+  const Posed at(a, b, centres);
   Proof proof;
-  if (at.sure && parts.spheres) {
-    ++answer.counts.spheres;
-    const Verdict said = by_spheres(a, b, at);
-    if (said == Verdict::apart) return answer;
-    if (said == Verdict::meeting) {
-      answer.hit = true, answer.found = Found::inside;
-      return answer;
-    }
-  }
   if (at.sure && cache && detail::recalled(a, b, at, *cache, answer.counts, proof)) {
     detail::name(a, b, at, proof, answer);
     return answer;
   }
   if (at.sure && parts.singles) detail::opposed(a, b, at, parts, answer.counts, proof);
-  const int starts = a.inner + b.inner > 0 ? detail::most_starts : 1;
+  Portal ended;
   if (at.sure && parts.doubles)
-    for (int i = 0; i < starts && proof.verdict == Verdict::unsure; ++i)
-      detail::Search{a, b, at, answer.counts, proof}.run(i);
+    detail::closed_in(a, b, pa, pb, at, parts, answer.counts, proof, ended);
   if (proof.verdict != Verdict::unsure) {
     if (cache) *cache = {a.number, b.number, proof};
   } else {
     ++answer.counts.steps;
-    proof.verdict = meets_exactly(a, b, pa, pb, proof.axis) ? Verdict::meeting : Verdict::apart;
+    proof.verdict =
+        meets_exactly(a, b, pa, pb, ended, proof.axis) ? Verdict::meeting : Verdict::apart;
   }
   detail::name(a, b, at, proof, answer);
   return answer;

@@ -53,10 +53,10 @@ inline void prove_many(const Hull& a, const Hull& b, const Pose* pa, const Pose*
   if (a.size() > list_unit && b.size() > list_unit) {
     unsigned char verdict[most_posed];
     const int asked = left;
-    kernels<double>.reflect(map_a, map_b, pairs, ofg::detail::fill_up(pairs, left), 2, verdict);
+    kernels<double>.reflect(map_a, map_b, pairs, ofg::detail::fill_up(pairs, left), 3, verdict);
     left = 0;
     for (int i = 0; i < asked; ++i) {
-      answers[rest[i]].counts.full_tests = 2;
+      answers[rest[i]].counts.full_tests = 3;
       settled[rest[i]] = verdict[i] == 1;
       if (verdict[i] != 1) keep(i, rest[i]);
     }

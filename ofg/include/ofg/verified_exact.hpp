@@ -7,7 +7,7 @@
 #pragma once
 #include <optional>
 
-#include "verified_pose.hpp"
+#include "verified_portal.hpp"
 
 namespace ofg::verified {
 namespace detail {
@@ -18,13 +18,17 @@ class Placed {
  public:
   Placed(const Hull& hull, const double (&q)[4], const Number& others_square,
          const Vector& position)
-      : hull_(hull), position_(position), factor_(others_square), kept_(hull.vertices.size()) {
-    for (int i = 0; i < 4; ++i) q_[i] = Number(q[i]);
+      : hull_(hull), position_(position), kept_(hull.vertices.size()) {
+    turning(q, turn_);
+    for (auto& row : turn_) row = row * others_square;
   }
 
   const Vector& operator[](int i) {
     auto& kept = kept_[std::size_t(i)];
-    if (!kept) kept = turned(Vector(hull_.vertices[std::size_t(i)]), q_) * factor_ + position_;
+    if (!kept) {
+      const Vector v(hull_.vertices[std::size_t(i)]);
+      kept = Vector(dot(turn_[0], v), dot(turn_[1], v), dot(turn_[2], v)) + position_;
+    }
     return *kept;
   }
 
@@ -55,17 +59,9 @@ class Placed {
 
  private:
   const Hull& hull_;
-  Number q_[4];
-  Vector position_;
-  Number factor_;
+  Vector turn_[3], position_;
   std::vector<std::optional<Vector>> kept_;
 };
-
-// The quaternion in units of its largest component, which changes no rotation.
-inline void in_range(const double (&q)[4], double (&to)[4]) {
-  const double unit = unit_of(std::fmax(std::abs(q[0]), largest(Vec3<double>(q[1], q[2], q[3]))));
-  for (int i = 0; i < 4; ++i) to[i] = q[i] * unit;
-}
 
 inline Number square(const double (&q)[4]) {
   Number sum;
@@ -81,22 +77,40 @@ inline int side(const Vector& a, const Vector& b, const Vector& d) {
   return n.x.sign() ? n.x.sign() : n.y.sign() ? n.y.sign() : n.z.sign();
 }
 
+// Does the plane of a portal keep M from the origin, or touch both? Whichever side it faces.
+inline bool apart_along(const Portal& portal, Placed& a, Placed& b, const Mat3<double>& ra,
+                        const Mat3<double>& rb, Vec3<double>& axis) {
+  if (!portal.known) return false;
+  Vector v[3];
+  for (int i = 0; i < 3; ++i) v[i] = a[portal.a[i]] - b[portal.b[i]];
+  const Vector n = cross(v[1] - v[0], v[2] - v[0]);
+  if (n.zero()) return false;
+  const Vec3<double> near = n.rounded();
+  axis = rb.transposed() * near;
+  const Vector s = a[a.farthest(n, ra.transposed() * near)] - b[b.farthest(-n, -axis)];
+  return dot(n, s).sign() <= 0;
+}
+
 }  // namespace detail
 
 // A ray goes from an interior point of M towards the origin, and slightly beside it so that it
 // meets no edge (Edelsbrunner and Muecke, Simulation of Simplicity, 1990). The portal is a triangle
 // with corners in M that it leaves through. Each step moves the portal out to the support along its
 // normal; the ray leaves later each time, so that no triangle comes twice and the search ends.
-// axis: the normal of the last portal in B's axes, from M's inside out. sweep: A's displacement
-// relative to B, over which a translation is asked about as a whole: the hull of A at its start and
-// at its end is what A's interior passes through.
+// axis: the normal of the last portal in B's axes, from M's inside out. ended: where a search with
+// rounding did, the normal outward; where bodies touch its plane mostly has all of M on one side
+// and the origin in it, and there is nothing to search. sweep: A's displacement relative to B, over
+// which a translation is asked about as a whole, without `ended`: the hull of A at its start and at
+// its end is what A's interior passes through.
 inline bool meets_exactly(const Hull& a, const Hull& b, const Pose& pa, const Pose& pb,
-                          Vec3<double>& axis, const Vector& sweep = Vector()) {
+                          const Portal& ended, Vec3<double>& axis, const Vector& sweep = Vector()) {
   double qa[4], qb[4];
   detail::in_range(pa.q, qa), detail::in_range(pb.q, qb);
   const Number na = detail::square(qa), nb = detail::square(qb);
   const Vector way = (Vector(pa.p) - Vector(pb.p)) * (na * nb);
   detail::Placed place_a(a, qa, nb, way), place_b(b, qb, na, Vector());
+  const Mat3<double> ra = rotation(pa.q), rb = rotation(pb.q);
+  if (detail::apart_along(ended, place_a, place_b, ra, rb, axis)) return false;
   // Four times everything, so that the centres of the tetrahedra need no division.
   const Number four(4.0);
   const Vector swept = sweep * (na * nb * four);
@@ -116,7 +130,6 @@ inline bool meets_exactly(const Hull& a, const Hull& b, const Pose& pa, const Po
       break;
     }
   }
-  const Mat3<double> ra = rotation(pa.q), rb = rotation(pb.q);
   for (;;) {
     const Vector n = cross(v[1] - v[0], v[2] - v[0]);
     const Vec3<double> near = n.rounded();

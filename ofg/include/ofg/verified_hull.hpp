@@ -23,6 +23,7 @@ constexpr double unit_roundoff = 0x1p-53;
 struct Hull {
   std::vector<Vec3<double>> vertices;  // as given: what is exact is about these
   Vec3<double> centre;                 // within 2 n units of rounding of a point of the hull
+  double way = 0;                      // from the frame's origin to the centre
   Cloud<double> cloud;                 // vertex - centre, each coordinate rounded once
   double radius = 0;                   // no vertex is farther from the centre
   double inner = 0;                    // the ball about the centre that the hull is sure to hold
@@ -45,6 +46,7 @@ struct Hull {
       all.push(v), centre = centre + v * (1.0 / n);
       extent = std::fmax(extent, length(v));
     }
+    way = length(centre);
     for (const auto& v : vertices) {
       cloud.push(v - centre);
       radius = std::fmax(radius, length(v - centre));

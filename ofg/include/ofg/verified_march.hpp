@@ -195,7 +195,7 @@ struct March {
   // vertices near it all recede from it, and the others are too far to reach it. 0 if they do not.
   double parting() {
     Vec3<double> out;
-    if (meets_exactly(m.a, m.b, pose_a, pose_b, out)) return 0;
+    if (meets_exactly(m.a, m.b, pose_a, pose_b, Portal(), out)) return 0;
     ++counts.steps;
     const Instant now = m.at(0);
     const Vec3<double> n = out * (-1 / length(out));

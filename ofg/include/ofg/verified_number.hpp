@@ -5,6 +5,7 @@
 // Exact arithmetic on doubles: sums, differences and products without rounding. For the few
 // questions that doubles cannot settle.
 #pragma once
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +14,53 @@
 #include "vector.hpp"
 
 namespace ofg::verified {
+
+// As much of a vector of limbs as Number needs. So many have their place in the object that a call
+// of the allocator is rare; where they are too many for it, all are in the vector.
+class Limbs {
+ public:
+  Limbs() = default;
+  Limbs(const Limbs& o) : count(o.count), far(o.far) { std::copy_n(o.near, o.nearby(), near); }
+  Limbs(Limbs&& o) noexcept : count(o.count), far(std::move(o.far)) {
+    std::copy_n(o.near, nearby(), near);
+    o.count = 0, o.far.clear();
+  }
+  Limbs& operator=(const Limbs& o) {
+    count = o.count, far = o.far;
+    std::copy_n(o.near, o.nearby(), near);
+    return *this;
+  }
+  Limbs& operator=(Limbs&& o) noexcept {
+    count = o.count, far = std::move(o.far);
+    std::copy_n(o.near, nearby(), near);
+    return *this;
+  }
+
+  std::size_t size() const { return count; }
+  bool empty() const { return count == 0; }
+  const std::uint64_t* data() const { return far.empty() ? near : far.data(); }
+  std::uint64_t* data() { return far.empty() ? near : far.data(); }
+  std::uint64_t operator[](std::size_t i) const { return data()[i]; }
+  std::uint64_t& operator[](std::size_t i) { return data()[i]; }
+  std::uint64_t back() const { return data()[count - 1]; }
+  void pop_back() { --count; }
+  // So many zeros, in place of what was there.
+  void zeros(std::size_t n) {
+    count = n, far.clear();
+    if (n > most)
+      far.assign(n, 0);
+    else
+      std::fill_n(near, n, 0);
+  }
+
+ private:
+  static constexpr std::size_t most = 20;
+  std::size_t count = 0;
+  std::uint64_t near[most];
+  std::vector<std::uint64_t> far;
+
+  std::size_t nearby() const { return far.empty() ? count : 0; }
+};
 
 // A number m 2^e with whole m of any length and e of any size: every finite double is one, and so
 // is every polynomial of doubles.
@@ -25,7 +73,7 @@ class Number {
     int e;
     const double m = std::frexp(std::abs(x), &e);  // exact also of subnormal numbers
     negative = x < 0;
-    limbs.push_back(std::uint64_t(std::ldexp(m, 53)));
+    limbs.zeros(1), limbs[0] = std::uint64_t(std::ldexp(m, 53));
     exponent = e - 53;
   }
 
@@ -76,7 +124,7 @@ class Number {
     Number p;
     if (limbs.empty() || o.limbs.empty()) return p;
     p.negative = negative != o.negative, p.exponent = exponent + o.exponent;
-    p.limbs.assign(limbs.size() + o.limbs.size(), 0);
+    p.limbs.zeros(limbs.size() + o.limbs.size());
     for (std::size_t i = 0; i < limbs.size(); ++i) {
       std::uint64_t carry = 0;
       for (std::size_t j = 0; j < o.limbs.size(); ++j) {
@@ -91,7 +139,6 @@ class Number {
 
  private:
   __extension__ typedef unsigned __int128 Wide;
-  using Limbs = std::vector<std::uint64_t>;
 
   Limbs limbs;  // of |m|, the least first, the last not zero; none of zero
   long exponent = 0;
@@ -107,13 +154,15 @@ class Number {
     const int part = int((exponent - e) % 64);
     Number n;
     n.negative = negative, n.exponent = e;
-    n.limbs.assign(whole, 0);
+    n.limbs.zeros(whole + limbs.size() + 1);
     std::uint64_t carry = 0;
-    for (const std::uint64_t x : limbs) {
-      n.limbs.push_back(part ? x << part | carry : x);
+    for (std::size_t i = 0; i < limbs.size(); ++i) {
+      const std::uint64_t x = limbs[i];
+      n.limbs[whole + i] = part ? x << part | carry : x;
       carry = part ? x >> (64 - part) : 0;
     }
-    if (carry) n.limbs.push_back(carry);
+    n.limbs[whole + limbs.size()] = carry;
+    trim(n.limbs);
     return n;
   }
 
@@ -127,21 +176,22 @@ class Number {
   static void added(const Limbs& x, const Limbs& y, Limbs& sum) {
     const Limbs &more = x.size() < y.size() ? y : x, &less = x.size() < y.size() ? x : y;
     std::uint64_t carry = 0;
-    sum.reserve(more.size() + 1);
+    sum.zeros(more.size() + 1);
     for (std::size_t i = 0; i < more.size(); ++i) {
       const Wide t = Wide(more[i]) + (i < less.size() ? less[i] : 0) + carry;
-      sum.push_back(std::uint64_t(t)), carry = std::uint64_t(t >> 64);
+      sum[i] = std::uint64_t(t), carry = std::uint64_t(t >> 64);
     }
-    if (carry) sum.push_back(carry);
+    sum[more.size()] = carry;
+    trim(sum);
   }
 
   // x is no less than y.
   static void subtracted(const Limbs& x, const Limbs& y, Limbs& rest) {
     std::uint64_t borrow = 0;
-    rest.reserve(x.size());
+    rest.zeros(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Wide t = Wide(x[i]) - (i < y.size() ? y[i] : 0) - borrow;
-      rest.push_back(std::uint64_t(t)), borrow = std::uint64_t(t >> 64) & 1;
+      rest[i] = std::uint64_t(t), borrow = std::uint64_t(t >> 64) & 1;
     }
     trim(rest);
   }
@@ -174,12 +224,14 @@ inline Vector cross(const Vector& a, const Vector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// N(q) v for a quaternion (w, x, y, z): |q|^2 times the rotated vector.
-inline Vector turned(const Vector& v, const Number (&q)[4]) {
-  // (w^2 - u.u) v + 2 (u.v) u + 2 w (u x v), u the vector part
-  const Vector u{q[1], q[2], q[3]};
-  const Number two(2.0);
-  return v * (q[0] * q[0] - dot(u, u)) + u * (dot(u, v) * two) + cross(u, v) * (q[0] * two);
+// N(q), the rotation times |q|^2, by rows.
+inline void turning(const double (&q)[4], Vector (&rows)[3]) {
+  const Number w(q[0]), x(q[1]), y(q[2]), z(q[3]), v(2 * q[0]), s(2 * q[1]), t(2 * q[2]);
+  const Number ww = w * w, xx = x * x, yy = y * y, zz = z * z;
+  const Number xy = s * y, xz = s * z, yz = t * z, wx = v * x, wy = v * y, wz = v * z;
+  rows[0] = {ww + xx - yy - zz, xy - wz, xz + wy};
+  rows[1] = {xy + wz, ww - xx + yy - zz, yz - wx};
+  rows[2] = {xz - wy, yz + wx, ww - xx - yy + zz};
 }
 
 }  // namespace ofg::verified

@@ -21,6 +21,12 @@ struct Proof {
   double off = 0;           // how far the corners may be from points of the bodies
 };
 
+// The vertices of A and of B whose differences are the corners of a portal.
+struct Portal {
+  bool known = false;
+  int a[3], b[3];
+};
+
 namespace detail {
 
 constexpr int most_steps = 100, most_starts = 3;
@@ -47,6 +53,7 @@ struct Search {
   const Posed& at;
   Counts& counts;
   Proof& proof;
+  bool closed = false;  // whether it ended at a portal that no support lies beyond, which proof has
 
   // The support along n; true where its plane keeps the two apart, or where n is no direction.
   bool ends(const Vec3<double>& n, Support& s) {
@@ -59,10 +66,14 @@ struct Search {
     return true;
   }
 
-  bool proves_meeting(const Vec3<double>& inside, const Vec3<double>& n, const Support (&s)[3]) {
-    ++counts.face_pairs;
+  void keep(const Vec3<double>& inside, const Vec3<double>& n, const Support (&s)[3]) {
     proof.inside = inside, proof.axis = n, proof.off = 0;
     for (int i = 0; i < 3; ++i) proof.a[i] = s[i].a, proof.b[i] = s[i].b;
+  }
+
+  bool proves_meeting(const Vec3<double>& inside, const Vec3<double>& n, const Support (&s)[3]) {
+    ++counts.face_pairs;
+    keep(inside, n, s);
     if (!still_meeting(at, proof)) return false;
     proof.verdict = Verdict::meeting;
     return true;
@@ -99,7 +110,8 @@ struct Search {
         }
         if (seeking) n = cross(v[0].point - v0, v[1].point - v0);
       } else {
-        if (!(dot(n, s.point - v[0].point) > at.slack * length(n))) return;  // nothing to gain
+        if (!(dot(n, s.point - v[0].point) > at.slack * length(n)))
+          return closed = true, keep(inside, n, v);  // nothing to gain
         const Vec3<double> c = cross(s.point, v0);
         const bool one = dot(v[0].point, c) > 0, two = dot(v[1].point, c) > 0,
                    three = dot(v[2].point, c) > 0;

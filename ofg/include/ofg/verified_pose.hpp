@@ -9,6 +9,33 @@
 
 namespace ofg::verified {
 
+// How far apart the origins of two hulls' frames are: what is known before any rotation. Without
+// units.
+struct Frames {
+  Vec3<double> shift;  // from B's origin to A's, in the world
+  double far;          // its length
+  double slack;        // as Posed has it, which derives it
+  bool sure;           // likewise
+
+  Frames(const Hull& a, const Hull& b, const Pose& pa, const Pose& pb) : shift(pa.p - pb.p) {
+    far = length(shift);
+    const double sum = a.radius + b.radius, lengths = sum + a.way + b.way + far;
+    slack = 256 * unit_roundoff * lengths;
+    sure = sum > 1e-100 && lengths < 1e100;
+  }
+};
+
+// And where the centres are in the world.
+struct Centres : Frames {
+  Mat3<double> turn_a, turn_b;  // from the bodies' axes to the world's
+  Vec3<double> between;         // from B's centre to A's
+
+  Centres(const Hull& a, const Hull& b, const Pose& pa, const Pose& pb, const Frames& frames)
+      : Frames(frames), turn_a(rotation(pa.q)), turn_b(rotation(pb.q)) {
+    between = turn_a * a.centre + shift - turn_b * b.centre;
+  }
+};
+
 // Everything below is about M = A - B, the differences of a point of A and one of B: the interiors
 // meet where the origin is interior to M. Lengths are in units of a power of two near the sum of
 // the radii, so that no product of a few of them leaves the range of doubles.
@@ -21,9 +48,10 @@ namespace ofg::verified {
 //   9 u the matrix. Together 70 u.
 // - r x for a vertex x relative to A's centre: 70 u |x|, three products summed 6 u |x|, x itself
 //   rounded once, u |x|: 80 u r_A.
-// - shift = Rb^T (p_A - p_B): u |d| from the difference d, 30 u |d| from the matrix, 6 u |d| from
-//   the sums: 40 u |d|.
-// - between = r c_A + shift - c_B: 76 u |c_A| + 40 u |d| and two sums, 2 u (|c_A| + |d| + |c_B|).
+// - between in the world = Ra c_A + d - Rb c_B, d = p_A - p_B: u |d| from the difference, 36 u |c|
+//   from each matrix and its sums, and two sums more, 2 u (|c_A| + |d| + |c_B|).
+// - between = Rb^T of that: 30 u from the matrix and 6 u from the sums, of |c_A| + |d| + |c_B| and
+//   a little: altogether 76 u (|c_A| + |c_B|) + 40 u |d|.
 // - a point r x - y + between: besides those u r_B of y, and two sums, 2 u (r_A + r_B + |between|).
 // Altogether less than 84 u (r_A + r_B + |c_A| + |c_B| + |d|). The support of M along an axis n is
 // computed as (r^T n) . x - n . y + n . between: r^T n is off by 76 u |n|, three products summed by
@@ -39,18 +67,29 @@ struct Posed {
 
   Posed() = default;
 
-  Posed(const Hull& a, const Hull& b, const Pose& pa, const Pose& pb) {
-    const Transform<double> pose = Track(pa, pb).at(0);
-    const double sum = a.radius + b.radius,
-                 lengths = sum + length(a.centre) + length(b.centre) + length(pa.p - pb.p);
-    unit = unit_of(sum);
-    r = pose.r;
-    between = (r * a.centre + pose.p - b.centre) * unit;
-    slack = 256 * unit_roundoff * lengths * unit;
+  Posed(const Hull& a, const Hull& b, const Centres& at) {
+    unit = unit_of(a.radius + b.radius);
+    const Mat3<double> back = at.turn_b.transposed();
+    r = back * at.turn_a;
+    between = back * at.between * unit;
+    slack = at.slack * unit;
     away = (a.off_centre + b.off_centre) * unit;
-    sure = sum > 1e-100 && lengths < 1e100 && slack < 1e100;
+    sure = at.sure && slack < 1e100;
   }
+
+  Posed(const Hull& a, const Hull& b, const Pose& pa, const Pose& pb)
+      : Posed(a, b, Centres(a, b, pa, pb, Frames(a, b, pa, pb))) {}
 };
+
+namespace detail {
+
+// The quaternion in units of its largest component, which changes no rotation.
+inline void in_range(const double (&q)[4], double (&to)[4]) {
+  const double unit = unit_of(std::fmax(std::abs(q[0]), largest(Vec3<double>(q[1], q[2], q[3]))));
+  for (int i = 0; i < 4; ++i) to[i] = q[i] * unit;
+}
+
+}  // namespace detail
 
 // The points of A and of B, relative to the centres and in their axes, whose difference is farthest
 // along an axis n of B's axes.

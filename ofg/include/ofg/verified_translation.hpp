@@ -153,7 +153,7 @@ struct Shot {
     Vec3<double> axis;
     ++counts.steps;
     const Vector way = (Vector(way_a) - Vector(way_b)) * Number(t);
-    return meets_exactly(a, b, pose_a, pose_b, axis, way);
+    return meets_exactly(a, b, pose_a, pose_b, Portal(), axis, way);
   }
 
   // By exact arithmetic alone. The bracket is halved until it is narrow enough.
@@ -192,7 +192,7 @@ struct Shot {
     double time = std::numeric_limits<double>::quiet_NaN();
     if (at.sure && dot(d, d) > 0) {
       ++counts.spheres;
-      if (by_spheres(a, b, at) == Verdict::meeting && start()) return;
+      if (by_spheres(a, b, pose_a, pose_b) == Verdict::meeting && start()) return;
       if (passes(-at.between, v[0])) return;
       const Verdict said = aim(v);
       if (said == Verdict::apart) return;

@@ -14,7 +14,7 @@ import pytest
 from experiments.analysis import views
 from experiments.analysis.tables import labels
 from experiments.cases import families
-from experiments.run.timing import SIZES
+from experiments.run.bins import SIZES
 from ofg import QUESTIONS
 
 ROOT = Path(__file__).parents[3]

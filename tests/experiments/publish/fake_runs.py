@@ -38,10 +38,11 @@ class Fake(Runs):
         rows=None,
         noise=lambda method, level: 0.0,
         unknown=0,
+        ratios=None,
     ):
         super().__init__("nowhere")
         self.wrong, self.label, self.late, self.slow, self.rows = wrong, label, late, slow, rows
-        self.noise, self.unknown = noise, unknown
+        self.noise, self.unknown, self.ratios = noise, unknown, ratios
 
     board = "standard"
     finished = ()
@@ -139,6 +140,8 @@ class Fake(Runs):
         )
 
     def file(self, name):
+        if name == "native/ratios.parquet" and self.ratios is not None:
+            return self.ratios
         if self.rows is None or ("class" in self.rows) != name.startswith("native"):
             raise Missing(f"run {name.split('/')[0]} is missing")
         return self.rows

@@ -11,9 +11,10 @@ import pytest
 from experiments.analysis import costs
 from experiments.analysis.tables import cost
 from experiments.cases.families import get
+from experiments.run.bins import Bin
 from experiments.run.config import RunConfig
 from experiments.run.folder.store import Store
-from experiments.run.timing import COLUMNS, LOST, Bin, measure_bin
+from experiments.run.timing import COLUMNS, LOST, measure_bin
 
 METHODS = """
 import os

@@ -18,8 +18,9 @@ from experiments.cli.app import app
 from experiments.publish.report import lanes
 from experiments.run.folder.store import Store, StoreError
 from experiments.studies.native import certified, saving, synthetic, twins
-from experiments.studies.native.classes import CLASSES, V3, library, standing
+from experiments.studies.native.classes import CLASSES, CONTROL, V3, library, standing
 from experiments.studies.native.page import overview, page
+from experiments.studies.native.ratios import growths, ratios
 from experiments.studies.native.summary import interval, steps, summary
 
 QUICK = Store(Path(__file__).parents[3] / "results" / "quick")
@@ -30,6 +31,7 @@ OFG = (
     "ofg k=8 to step 1",
     "ofg k=8 to step 3",
     "ofg k=8 to step 6",
+    "ofg-verified",
 )
 
 
@@ -50,11 +52,13 @@ def times(ns, modes=("warm", "batch")) -> pd.DataFrame:
             "block": b,
             "ns": ns(e, isa, mode, b),
             "build_ns": 1,
+            "built": 2,
+            "bytes": -1,
         }
         for e, isa in who
         for mode in modes
         for b in range(6)
-        if mode != "batch" or "screen" in e
+        if mode != "batch" or "screen" in e or "verified" in e
     ]
     return pd.DataFrame(rows)
 
@@ -70,8 +74,14 @@ def answers(rows: pd.DataFrame, hit, label) -> pd.DataFrame:
 
 
 def made(ns=lambda e, isa, mode, b: 10.0 + b) -> pd.DataFrame:
+    return study(ns)[0]
+
+
+def study(ns=lambda e, isa, mode, b: 10.0 + b) -> tuple:
+    """Rows, ratios and growths."""
     rows = times(ns)
-    return summary(rows, answers(rows, lambda e, b: False, lambda b: "clear"))
+    said = answers(rows, lambda e, b: False, lambda b: "clear")
+    return summary(rows, said), ratios(rows, said), growths(rows)
 
 
 def test_an_engine_stands_with_the_build_of_the_class_or_the_only_one():
@@ -85,7 +95,8 @@ def test_an_engine_stands_with_the_build_of_the_class_or_the_only_one():
 def test_every_engine_of_the_plugins_belongs_to_a_library():
     for engine in ("fcl-convex-indep, cached guess", "parry", "parry, kept manifold", "mujoco"):
         assert library(engine) != "OFG"
-    assert library("ofg k=8 to step 3") == "OFG"
+    assert library("ofg k=8 to step 3") == library("ofg-verified, cache") == "OFG"
+    assert library("spheres-fcl-convex-exact") == CONTROL, "no engine, and not OFG"
 
 
 def test_quotients_are_of_the_same_class_and_block():
@@ -143,21 +154,26 @@ def test_steps_sum_up():
 
 
 def test_the_page_has_a_row_for_each_cell_and_mode_and_marks_single_calls():
-    rows = made()
+    rows, over, grown = study()
+    text = page(rows, ["facts"], over, grown)
     for name in CLASSES:
-        assert f"OFG with {CLASSES[name]}" in page(rows, ["facts"])
-    grid = overview(rows[rows["class"] == V3])
+        assert f"OFG with {CLASSES[name]}" in text
+    grid = overview(rows[rows["class"] == V3], over[over["class"] == V3])
+    assert list(grid["ofg-verified"]) == ["12", "12"]
+    assert list(grid["engine / verified"]) == ["1.00 (1.00-1.00)"] * 2
     assert list(grid["mode"]) == ["warm", "batch"]
     assert list(grid.FCL.str.contains(r"\*")) == [False, True] and set(grid.Bullet) == {"-"}
 
 
 def test_what_is_written_is_what_was_found(tmp_path):
-    found = made(lambda e, isa, mode, b: 1234.567 + b)
+    found, over, grown = study(lambda e, isa, mode, b: 1234.567 + b)
     rows = saving.small(found)
     assert np.allclose(rows.ns, found.ns, rtol=5e-4) and np.allclose(rows.low, found.low, rtol=5e-3)
-    saving.save(tmp_path, rows, page(rows, ["facts"]), {})
-    back = pd.read_parquet(tmp_path / "rows.parquet")
-    assert page(back, ["facts"]) == page(rows, ["facts"]) == (tmp_path / "native.md").read_text()
+    written = page(rows, ["facts"], over, grown)
+    saving.save(tmp_path, rows, over, grown, written, {})
+    names = ("rows", "ratios", "growths")
+    back, over, grown = (pd.read_parquet(tmp_path / f"{name}.parquet") for name in names)
+    assert page(back, ["facts"], over, grown) == written == (tmp_path / "native.md").read_text()
 
 
 def test_twins_are_told_by_all_parameters():

@@ -15,8 +15,9 @@ import pytest
 
 from baselines import native
 from experiments.run.folder.store import Store
-from experiments.studies.native import certified, measuring, twins
+from experiments.studies.native import certified, measuring, synthetic, twins
 from experiments.studies.native.classes import V3
+from ofg.verification import prepare_verified
 
 QUICK = Store(Path(__file__).parents[3] / "results" / "quick")
 MOST = 20  # cases of a cell
@@ -58,6 +59,46 @@ def test_every_engine_with_a_method_in_the_run_is_joined(answers):
     joined = set(twins.pairs(answers.engine.unique(), labels))
     for plugin in built & set(wanted):
         assert wanted[plugin] <= joined
+
+
+@pytest.mark.parametrize("name, selection", [("ofg-verified", True), ("ofg-mpr", False)])
+def test_verified_ofg_answers_as_from_python(answers, name, selection):
+    """In every instruction set, and never wrongly."""
+    own = answers[answers.engine == name]
+    cells = [c for c in certified.cells(QUICK, MOST) if c.question == "overlap"]
+    cells = [c for c in cells if selection or c.bodies == "convex"]
+    queries = {case: query for cell in cells for case, query in zip(cell.cases, cell.queries)}
+    assert set(own.isa) >= {"SSE2"} and set(own.case) == set(queries)
+    there = {
+        case: prepare_verified(query, selection=selection)()[0] for case, query in queries.items()
+    }
+    assert (own.hit == own.case.map(there)).all()
+    assert (own.hit == (own.label == "hit")).all()
+
+
+@pytest.mark.usefixtures("answers")
+def test_neither_a_batch_nor_a_cache_changes_an_answer():
+    cell = synthetic.coherent(80, "contact", 64, seed=3)
+    taken = native.run(cell.queries, ("warm", "batch", "coherent"), cell.block, 1, 0)
+    found = taken.answers.join(taken.contestants, on="id")
+    found = found[found.engine.str.match("ofg-verified|ofg-mpr")]
+    assert set(found["mode"]) == {"warm", "batch", "coherent"}
+    assert "ofg-verified, cache" in set(found.engine)
+    wanted = [label == "hit" for label in cell.labels]
+    for _, rows in found.groupby("id"):
+        assert list(rows.sort_values("case").hit.astype(bool)) == wanted
+
+
+def test_spheres_settle_what_they_settle_rightly(answers):
+    """An engine behind them answers as it does alone, or as certified."""
+    behind = answers[answers.engine.str.startswith("spheres-")]
+    assert twins.key("spheres-fcl-convex-exact"), "named as the method of the Python lane"
+    behind = behind.assign(engine=behind.engine.str.removeprefix("spheres-"))
+    key = ["engine", "isa", "build", "mode", "case"]
+    both = behind.merge(answers, on=key, suffixes=("", "_alone"))
+    assert len(both) == len(behind) > 0
+    other = both[both.hit != both.hit_alone]
+    assert (other.hit == (other.label == "hit")).all()
 
 
 def test_answers_do_not_hang_on_what_the_memory_held(answers, monkeypatch):

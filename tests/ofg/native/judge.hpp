@@ -31,101 +31,137 @@ template <class T>
 Point<T> cross(const Point<T>& a, const Point<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-
-using Posed = std::vector<Point<Quad>>;
-
-// Vertices in the world less an origin near both, in quads.
-inline Posed posed(const std::vector<ofg::Vec3<double>>& vertices, const ofg::Pose& pose,
-                   const ofg::Vec3<double>& origin) {
-  Quad q[4], size = 0, most = 0;
-  for (const double c : pose.q) most = std::max(most, Quad(c < 0 ? -c : c));
-  for (int i = 0; i < 4; ++i) q[i] = pose.q[i] / most, size += q[i] * q[i];
-  const Quad w = q[0], x = q[1], y = q[2], z = q[3];
-  const Quad m[9] = {
-      w * w + x * x - y * y - z * z, 2 * (x * y - w * z),           2 * (x * z + w * y),
-      2 * (x * y + w * z),           w * w - x * x + y * y - z * z, 2 * (y * z - w * x),
-      2 * (x * z - w * y),           2 * (y * z + w * x),           w * w - x * x - y * y + z * z};
-  const Quad p[3] = {Quad(pose.p.x) - origin.x, Quad(pose.p.y) - origin.y,
-                     Quad(pose.p.z) - origin.z};
-  Posed out;
-  for (const auto& v : vertices) {
-    const auto row = [&](int i) {
-      return (m[3 * i] * v.x + m[3 * i + 1] * v.y + m[3 * i + 2] * v.z) / size + p[i];
-    };
-    out.push_back({row(0), row(1), row(2)});
-  }
-  return out;
+template <class T>
+T size_of(const Point<T>& a) {  // no less than its length
+  const auto plus = [](T t) { return t < 0 ? -t : t; };
+  return plus(a.x) + plus(a.y) + plus(a.z);
 }
 
-struct Pair {
-  Posed a, b;
-  std::vector<Point<double>> da, db;  // the same, rounded
-  double size = 0;                    // of all coordinates
+enum class Says { clear, hit, near };  // near: nothing, it is as good as touching
 
-  Pair(Posed a_, Posed b_) : a(std::move(a_)), b(std::move(b_)) {
-    for (auto* side : {&a, &b})
-      for (const auto& p : *side) {
-        (side == &a ? da : db).push_back({double(p.x), double(p.y), double(p.z)});
-        for (const Quad c : {p.x, p.y, p.z}) size = std::max(size, std::abs(double(c)));
-      }
-  }
+struct Question {
+  const std::vector<ofg::Vec3<double>>&a, &b;
+  const ofg::Pose &p, &q;
+};
 
-  // Calls f(normal in doubles, normal in quads as a function) for every candidate.
-  template <class F>
-  void normals(F f) const {
-    for (const auto* side : {&a, &b}) {
-      const auto& d = side == &a ? da : db;
-      for (std::size_t i = 0; i < d.size(); ++i)
-        for (std::size_t j = i + 1; j < d.size(); ++j)
-          for (std::size_t k = j + 1; k < d.size(); ++k)
-            f(cross(d[j] - d[i], d[k] - d[i]),
-              [&, i, j, k] { return cross((*side)[j] - (*side)[i], (*side)[k] - (*side)[i]); });
+template <class T>
+using Points = std::vector<Point<T>>;
+
+// The vertices of both bodies less B's position, times |q_A|^2 |q_B|^2: nothing is divided, so that
+// whole numbers stay whole.
+template <class T>
+struct Posed {
+  Points<T> a, b;
+  T lengths = 0;  // no coordinate, and none of the terms it is the sum of, is larger
+
+  explicit Posed(const Question& question) {
+    T q[2][4], square[2] = {};
+    for (int i = 0; i < 2; ++i) {
+      const ofg::Pose& pose = i == 0 ? question.p : question.q;
+      double most = 0;
+      for (const double c : pose.q) most = std::max(most, std::abs(c));
+      for (int j = 0; j < 4; ++j) q[i][j] = T(pose.q[j]) / T(most), square[i] += q[i][j] * q[i][j];
     }
-    for (std::size_t i = 0; i < a.size(); ++i)
-      for (std::size_t j = i + 1; j < a.size(); ++j)
-        for (std::size_t k = 0; k < b.size(); ++k)
-          for (std::size_t l = k + 1; l < b.size(); ++l)
-            f(cross(da[j] - da[i], db[l] - db[k]),
-              [&, i, j, k, l] { return cross(a[j] - a[i], b[l] - b[k]); });
+    const T all = square[0] * square[1];
+    const auto &p = question.p.p, &o = question.q.p;
+    const Point<T> way{(T(p.x) - T(o.x)) * all, (T(p.y) - T(o.y)) * all, (T(p.z) - T(o.z)) * all};
+    lengths = size_of(way) + turn(question.a, q[0], square[1], way, a) * all +
+              turn(question.b, q[1], square[0], {}, b) * all;
   }
 
-  // How far apart the two are along n, times |n|: the least along it of B less the greatest of A.
-  template <class T>
-  static T gap(const std::vector<Point<T>>& a, const std::vector<Point<T>>& b, const Point<T>& n) {
-    T most = dot(a[0], n), least = dot(b[0], n);
-    for (const auto& p : a) most = std::max(most, dot(p, n));
-    for (const auto& p : b) least = std::min(least, dot(p, n));
-    return least - most;
+ private:
+  // Returns the largest vertex.
+  static T turn(const std::vector<ofg::Vec3<double>>& from, const T (&q)[4], T other,
+                const Point<T>& to, Points<T>& out) {
+    const T w = q[0], x = q[1], y = q[2], z = q[3];
+    const Point<T> m[3] = {
+        {w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
+        {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
+        {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}};
+    T most = 0;
+    out.reserve(from.size());
+    for (const auto& v : from) {
+      const Point<T> at{T(v.x), T(v.y), T(v.z)};
+      most = std::max(most, size_of(at));
+      out.push_back({dot(m[0], at) * other + to.x, dot(m[1], at) * other + to.y,
+                     dot(m[2], at) * other + to.z});
+    }
+    return most;
   }
 };
 
-enum class Says { clear, hit, near };  // near: within 1e-24 of touching, as good as touching
+// Calls f(normal, the same in quads as a function of them) for every candidate.
+template <class F>
+void normals(const Points<double>& a, const Points<double>& b, F f) {
+  for (const bool second : {false, true}) {
+    const auto& d = second ? b : a;
+    for (std::size_t i = 0; i < d.size(); ++i)
+      for (std::size_t j = i + 1; j < d.size(); ++j)
+        for (std::size_t k = j + 1; k < d.size(); ++k)
+          f(cross(d[j] - d[i], d[k] - d[i]), [second, i, j, k](const Posed<Quad>& all) {
+            const auto& e = second ? all.b : all.a;
+            return cross(e[j] - e[i], e[k] - e[i]);
+          });
+  }
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = i + 1; j < a.size(); ++j)
+      for (std::size_t k = 0; k < b.size(); ++k)
+        for (std::size_t l = k + 1; l < b.size(); ++l)
+          f(cross(a[j] - a[i], b[l] - b[k]), [i, j, k, l](const Posed<Quad>& all) {
+            return cross(all.a[j] - all.a[i], all.b[l] - all.b[k]);
+          });
+}
 
-inline Says overlap(const Pair& pair) {
+// How far apart the two are along n, times |n|: the least along it of B less the greatest of A.
+template <class T>
+T gap(const Points<T>& a, const Points<T>& b, const Point<T>& n) {
+  T most = dot(a[0], n), least = dot(b[0], n);
+  for (const auto& p : a) most = std::max(most, dot(p, n));
+  for (const auto& p : b) least = std::min(least, dot(p, n));
+  return least - most;
+}
+
+// How far apart along n or against it.
+template <class T>
+T gap_either_way(const Points<T>& a, const Points<T>& b, const Point<T>& n) {
+  T most[2] = {dot(a[0], n), dot(b[0], n)}, least[2] = {most[0], most[1]};
+  for (const bool second : {false, true})
+    for (const auto& p : second ? b : a) {
+      const T t = dot(p, n);
+      most[second] = std::max(most[second], t), least[second] = std::min(least[second], t);
+    }
+  return std::max(least[1] - most[0], least[0] - most[1]);
+}
+
+inline Points<double> rounded(const Points<Quad>& all) {
+  Points<double> out;
+  for (const auto& p : all) out.push_back({double(p.x), double(p.y), double(p.z)});
+  return out;
+}
+
+// By all planes. whole: of such numbers that 113 bits hold every product of three coordinates; then
+// the answer is exact, and bodies that touch are clear of one another.
+inline Says by_all_planes(const Question& question, bool whole) {
+  const Posed<Quad> all(question);
+  const Points<double> a = rounded(all.a), b = rounded(all.b);
+  double size = 0;
+  for (const auto* side : {&a, &b})
+    for (const auto& p : *side) size = std::max(size, size_of(p));
   // A normal is off by some 1e-15 size^2, so what is along it by 1e-15 size^3, however short it is.
-  const double off = 1e-14 * pair.size * pair.size * pair.size;
-  const Quad tiny = Quad(1e-28) * pair.size * pair.size * pair.size;
+  const double off = 1e-14 * size * size * size;
+  const Quad tiny = whole ? Quad(0) : Quad(1e-31) * all.lengths * size * size;
   bool clear = false, near = false;
-  pair.normals([&](const Point<double>& n, auto exactly) {
+  normals(a, b, [&](const Point<double>& n, auto exactly) {
     if (clear) return;
-    double most[2] = {-1e300, -1e300}, least[2] = {1e300, 1e300};
-    for (const auto& p : pair.da) {
-      const double t = dot(p, n);
-      most[0] = std::max(most[0], t), least[0] = std::min(least[0], t);
-    }
-    for (const auto& p : pair.db) {
-      const double t = dot(p, n);
-      most[1] = std::max(most[1], t), least[1] = std::min(least[1], t);
-    }
-    const double apart = std::max(least[1] - most[0], least[0] - most[1]);
+    const double apart = gap_either_way(a, b, n);
     if (apart > off) clear = true;
     if (apart > off || apart < -off) return;
-    const Point<Quad> m = exactly(), back = Point<Quad>{-m.x, -m.y, -m.z};
-    if (dot(m, m) <= tiny * tiny / pair.size / pair.size) return;  // three in a line, or parallel
-    const Quad gap = std::max(Pair::gap(pair.a, pair.b, m), Pair::gap(pair.a, pair.b, back));
-    if (gap > tiny)
+    const Point<Quad> m = exactly(all);
+    if (size_of(m) <= tiny / size) return;  // three in a line, or parallel
+    const Quad exact = gap_either_way(all.a, all.b, m);
+    if (exact > tiny || (whole && exact == 0))
       clear = true;
-    else if (gap >= -tiny)
+    else if (exact >= -tiny)
       near = true;
   });
   return clear ? Says::clear : near ? Says::near : Says::hit;
@@ -133,17 +169,22 @@ inline Says overlap(const Pair& pair) {
 
 // How far A may go along a direction and still meet B, if it goes on from where they do: beyond it
 // they are apart. In doubles.
-inline double reach(const Pair& pair, const Point<double>& way) {
-  double far = 1e300;
-  pair.normals([&](const Point<double>& n, auto) {
-    for (const double side : {1.0, -1.0}) {
-      const Point<double> m{side * n.x, side * n.y, side * n.z};
-      const double speed = -dot(m, way);  // at which the gap along m grows
-      if (!(speed > 0 && speed * speed > 1e-18 * dot(n, n) * dot(way, way))) continue;
-      far = std::min(far, -Pair::gap(pair.da, pair.db, m) / speed);
-    }
+inline double reach(const Question& question, const Point<double>& way) {
+  const Posed<double> at(question);
+  double far = 1e300, all = 1;  // what Posed multiplies by
+  for (const auto* pose : {&question.p, &question.q}) {
+    double most = 0, square = 0;
+    for (const double c : pose->q) most = std::max(most, std::abs(c));
+    for (const double c : pose->q) square += c / most * (c / most);
+    all *= square;
+  }
+  normals(at.a, at.b, [&](const Point<double>& n, auto) {
+    const double speed = dot(n, way);  // at which a gap along n grows, or shrinks
+    if (!(speed * speed > 1e-18 * dot(n, n) * dot(way, way))) return;
+    const double side = speed < 0 ? 1 : -1;
+    far = std::min(far, -gap(at.a, at.b, {side * n.x, side * n.y, side * n.z}) / std::abs(speed));
   });
-  return far;
+  return far / all;
 }
 
 }  // namespace judge

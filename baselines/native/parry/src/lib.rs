@@ -8,7 +8,7 @@ use parry3d_f64::query::{
     self, ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher, NonlinearRigidMotion,
     PersistentQueryDispatcher, ShapeCastOptions,
 };
-use parry3d_f64::shape::{ConvexPolyhedron, Shape, TriMesh};
+use parry3d_f64::shape::{Compound, ConvexPolyhedron, Shape, SharedShape, TriMesh};
 
 #[repr(C)]
 pub struct CPose {
@@ -54,6 +54,27 @@ pub unsafe extern "C" fn parry_mesh(
     match TriMesh::new(points(vertices, n), triangles) {
         Ok(mesh) => Box::into_raw(Box::new(Box::new(mesh) as Box<dyn Shape>)),
         Err(_) => std::ptr::null_mut(),
+    }
+}
+
+/// The union of the hulls, or a null pointer where parry makes none of one.
+#[no_mangle]
+pub unsafe extern "C" fn parry_compound(
+    vertices: *const *const f64,
+    n: *const usize,
+    pieces: usize,
+) -> *mut Box<dyn Shape> {
+    let hulls: Option<Vec<_>> = (0..pieces)
+        .map(|i| {
+            ConvexPolyhedron::from_convex_hull(&points(*vertices.add(i), *n.add(i)))
+                .map(|hull| (Pose::IDENTITY, SharedShape::new(hull)))
+        })
+        .collect();
+    match hulls {
+        Some(hulls) if !hulls.is_empty() => {
+            Box::into_raw(Box::new(Box::new(Compound::new(hulls)) as Box<dyn Shape>))
+        }
+        _ => std::ptr::null_mut(),
     }
 }
 

@@ -4,7 +4,7 @@
 
 """The claims in the order of the page: those of the article, then those that it does not make."""
 
-from . import basic, concave, moving, project
+from . import basic, concave, moving, project, verified
 from .claim import Claim, Finding, finding
 
 __all__ = ["CLAIMS", "Claim", "Finding", "finding"]
@@ -21,6 +21,7 @@ CLAIMS: tuple[Claim, ...] = (
     basic.all_pairs,
     project.engines_speed,
     project.batch_speed,
+    verified.verified_speed,
     moving.thin_walls,
     moving.flights,
     moving.start_spheres,

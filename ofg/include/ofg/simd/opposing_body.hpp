@@ -7,6 +7,7 @@
 // `gap`, which is more than single precision is off by; where that leaves a doubt it does not
 // answer.
 
+#define OFG_MEMBER inline __attribute__((always_inline))
 struct Spot {
   float x, y, z;
 };
@@ -19,10 +20,19 @@ OFG_INLINE Spot outer(const Spot& a, const Spot& b) {
 }
 
 // A point of A - B, and the two that it is the difference of: y and z follow x after list_unit and
-// twice that, in each body's axes.
+// twice that, in each body's axes. Copied member by member: as one object it was written in parts
+// and read back whole at each step, for which a processor waits until the parts are in memory.
 struct Corner {
   Spot m;
   const float *a, *b;
+  Corner() = default;
+  OFG_MEMBER Corner(const Spot& m_, const float* a_, const float* b_)
+      : m{m_.x, m_.y, m_.z}, a(a_), b(b_) {}
+  OFG_MEMBER Corner(const Corner& o) : m{o.m.x, o.m.y, o.m.z}, a(o.a), b(o.b) {}
+  OFG_MEMBER Corner& operator=(const Corner& o) {
+    m.x = o.m.x, m.y = o.m.y, m.z = o.m.z, a = o.a, b = o.b;
+    return *this;
+  }
 };
 
 // The point of a patch least along an axis, but for sixteen units of rounding: see least_of_cell.
@@ -69,7 +79,6 @@ OFG_INLINE bool holds(const Spot& v0, const Corner* v, float gap) {
          side_of_origin(v0, v[1].m, v[0].m, gap) == s;
 }
 
-#define OFG_MEMBER inline __attribute__((always_inline))
 struct OpposedSearch {
   const OpposedPair& q;
   Opposed& out;

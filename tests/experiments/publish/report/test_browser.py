@@ -240,7 +240,7 @@ def test_cells_of_saved_tables_lead_where_the_data_say(open_page, written, run, 
     from experiments.analysis.views import gap_bands
     from experiments.publish.report import payload
     from experiments.publish.report.cells import select
-    from experiments.run.timing import situation_of, size_of
+    from experiments.run.bins import situation_of, size_of
 
     page, checked = open_page(written), 0
     frame = found.assign(

@@ -17,8 +17,9 @@ import pytest
 from experiments.analysis import outcome, tables, views
 from experiments.publish.report import certificate, gallery, page, payload, report, shapes
 from experiments.publish.report.cells import links, select
+from experiments.run.bins import situation_of, size_of
 from experiments.run.folder.rows import cases_of
-from experiments.run.timing import FLOOR, LOST, PROBE, situation_of, size_of
+from experiments.run.timing import FLOOR, LOST, PROBE
 
 
 @pytest.fixture(scope="module")
