@@ -80,7 +80,7 @@ def test_the_committed_page_is_what_the_committed_runs_make(page):
 
 
 def test_it_is_short_and_its_links_lead_somewhere(page):
-    assert len(page.splitlines()) < 320
+    assert len(page.splitlines()) < 340  # a line for each method that an engine has
     for target in re.findall(r"\]\(([^)#]+)\)", page):
         assert (RESULTS / target).exists(), target
     for target in re.findall(r"\]\(#([^)]+)\)", page):
