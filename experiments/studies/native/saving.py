@@ -21,19 +21,13 @@ from .measuring import CELL, CONTESTANT
 from .summary import COUNTS, RATIO
 
 
-def save(
-    folder: Path,
-    rows: pd.DataFrame,
-    ratios: pd.DataFrame,
-    growths: pd.DataFrame,
-    page: str,
-    made: dict,
-) -> None:
-    """Write all. rows: as `small` gives them; ratios, growths: from which the page was made."""
+def save(folder: Path, rows: pd.DataFrame, page: str, made: dict, **further: pd.DataFrame) -> None:
+    """Write all. rows: as `small` gives them. further: other frames from which the page was made,
+    by the name of their file.
+    """
     store = Store(folder)
-    store.write(rows, "rows.parquet")
-    store.write(ratios, "ratios.parquet")
-    store.write(growths, "growths.parquet")
+    for name, frame in {"rows": rows, **further}.items():
+        store.write(frame, f"{name}.parquet")
     store.write_text(page, "native.md")
     store.write_text(json.dumps(made, indent=1) + "\n", "made.json")
 

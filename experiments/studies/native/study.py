@@ -53,14 +53,14 @@ def study(
     made = saving.facts(asked=asked, rounds=rounds)
     times, answers, both, noise = _measured(cells, rounds, core, python)
     rows = saving.small(summary(times, answers))
-    found = saving.few_digits(ratios(times, answers)), growths(times)
+    found = {"ratios": saving.few_digits(ratios(times, answers)), "growths": growths(times)}
     facts = [asked, f"{rounds} rounds.", *built, _noise(noise)]
     facts += _against(Store(run), rows, answers) if run else []
     facts = [line for fact in facts for line in (fact, "")]
-    print(page(rows, facts, *found, parts=False) + _both(both))
+    print(page(rows, facts, **found, parts=False) + _both(both))
     if out:
         made |= {"noise": round(float(np.nanmax(noise)), 4), "finished": manifest.now()}
-        saving.save(out, rows, *found, page(rows, facts, *found) + _both(both), made)
+        saving.save(out, rows, page(rows, facts, **found) + _both(both), made, **found)
 
 
 def _measured(cells: list[Cell], rounds: int, core: int | None, python: bool) -> tuple:

@@ -8,10 +8,14 @@ from itertools import islice
 
 import numpy as np
 import pandas as pd
+import pytest
 
+from baselines import native
 from baselines.native import casefile
 from experiments.studies.native import concave
 from experiments.studies.native.summary import summary
+
+CELLS = concave.cells
 
 
 def test_the_cells_are_where_they_say():
@@ -53,3 +57,11 @@ def test_the_page_puts_verified_ofg_over_the_fastest_library():
     generic, v3 = page.split("## ")[1:]
     assert "| 100 | 400 fcl-mesh | - | - | 300 coal-mesh [4/4] | - | 0.33" in generic
     assert "| 75 |" in v3 and "0.25" in v3
+
+
+@pytest.mark.skipif(not native.building.standing(), reason="the native lane is not built")
+def test_the_study_is_written_with_its_page(tmp_path, monkeypatch):
+    monkeypatch.setattr(concave, "cells", lambda cases, seed: islice(CELLS(cases, seed), 1))
+    concave.study(2, 1, 1, None, tmp_path)
+    assert (tmp_path / "native.md").read_text().startswith("# Concave bodies")
+    assert "ofg-verified" in set(pd.read_parquet(tmp_path / "rows.parquet").engine)

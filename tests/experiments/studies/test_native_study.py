@@ -170,7 +170,7 @@ def test_what_is_written_is_what_was_found(tmp_path):
     rows = saving.small(found)
     assert np.allclose(rows.ns, found.ns, rtol=5e-4) and np.allclose(rows.low, found.low, rtol=5e-3)
     written = page(rows, ["facts"], over, grown)
-    saving.save(tmp_path, rows, over, grown, written, {})
+    saving.save(tmp_path, rows, written, {}, ratios=over, growths=grown)
     names = ("rows", "ratios", "growths")
     back, over, grown = (pd.read_parquet(tmp_path / f"{name}.parquet") for name in names)
     assert page(back, ["facts"], over, grown) == written == (tmp_path / "native.md").read_text()
