@@ -125,19 +125,15 @@ class Calls:
     def __init__(self, core, native, seed: int):
         self.core, self.native, self.g = core, native, Garbage(seed)
         self.solids, self.proved, self.movers = [], [], [native.Mover(*STILL)]
-        self.wide = set()  # solids of which no part is tiny
         self.hulls, self.cache = [], core.Cache()
 
     def solid(self):
         pieces = [self.g.mesh() for _ in range(self.g.random.integers(0, 3))]
         pf = [f for _, f in pieces][: -1 if self.g.often(0.02) else None]
-        whole = self.g.mesh()
-        made = self.core.Solid(*whole, self.g.often(0.5), [v for v, _ in pieces], pf)
-        self._keep(self.solids, made)
-        if all(
-            f.size and np.ptp(v[f.astype(int)], axis=(0, 1)).max() > 1 for v, f in (whole, *pieces)
-        ):
-            self.wide.add(made)
+        self._keep(
+            self.solids,
+            self.core.Solid(*self.g.mesh(), self.g.often(0.5), [v for v, _ in pieces], pf),
+        )
 
     def of_mesh(self):
         self._keep(self.proved, self.native.Solid.of_mesh(*self.g.mesh()))
@@ -164,7 +160,7 @@ class Calls:
     def one(self, kept: list):
         return kept[self.g.random.integers(len(kept))] if kept and self.g.often(0.995) else None
 
-    def options(self, solids, *rows):
+    def options(self):
         o = self.core.Options()
         for name in (
             "k",
@@ -192,23 +188,17 @@ class Calls:
         if self.g.often(0.2):
             o.arc_tolerance = self.g.number()
         if 0 < o.arc_tolerance < 1:  # millions of parts of a step are no fault, but take minutes
-            soon = self.wide.issuperset(solids) and all(
-                isinstance(r, np.ndarray)
-                and r.dtype == float
-                and (np.abs(r[np.isfinite(r)]) < 10).all()
-                for r in rows
-            )
-            o.arc_tolerance = max(o.arc_tolerance, 1e-2) if soon else 0.0
+            o.arc_tolerance = 0.0
         return o
 
     def ask_many(self):
         n = int(self.g.random.integers(0, 4))
         rows = (self.g.poses(n), self.g.poses(n), self.g.motions(n), self.g.motions(n))
-        solids = self.one(self.solids), self.one(self.solids)
         self.core.ask_many(
-            *solids,
+            self.one(self.solids),
+            self.one(self.solids),
             *rows,
-            self.options(solids, *rows),
+            self.options(),
             self.g.whole(),
             self.g.often(0.5),
             self.g.often(0.5),
@@ -262,11 +252,11 @@ class Calls:
 
     def prepared(self):
         rows = self.g.poses(2), self.g.motions(2)
-        solids = self.one(self.solids), self.one(self.solids)
         made = self.core.Prepared(
-            *solids,
+            self.one(self.solids),
+            self.one(self.solids),
             *rows,
-            self.options(solids, *rows),
+            self.options(),
             self.g.whole(),
             self.g.often(0.5),
             self.g.often(0.5),
